@@ -26,7 +26,7 @@ import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
 FOLDER = os.path.join(ROOT, "results", "baseline")
-# Generated or committed meshes only: no scene needs the network. Probes cost time and say nothing about the methods.
+# Generated or committed meshes only, so no network. Probes cost time and judge no method.
 SCENES = {
     "shapes": ("experiments/shapes.json", ['/methods/-={"name":"certified","force_law":"exponential"}']),
     "combs": ("experiments/extreme/combs.json", []),
@@ -35,7 +35,7 @@ SCENES = {
 OVERRIDES = ["/driver/repetitions=4", "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0"]
 RATIO_FACTOR = 3.0
 TIMES = ("global_search_time", "first_reduction_time", "second_tracking_time", "local_update_time")
-# Shorter totals are mostly the clock's own cost.
+# A shorter total is mostly the cost of reading the clock.
 LEAST_TOTAL_S = 5e-4
 
 

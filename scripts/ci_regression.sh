@@ -1,23 +1,23 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Is a candidate slower than its base, or does it behave otherwise? Builds both, each in a worktree of its own and nothing but
-# the program, and lets scripts/ci/regression.py run and judge them: `scripts/ci/regression.py --help` says how.
+# Is a candidate slower than its base, or does it behave otherwise? Builds the program of both, each
+# in its own worktree. scripts/ci/regression.py runs and judges them: see its --help.
 #
 #   scripts/ci_regression.sh BASE_REV [CANDIDATE_REV] [option]...
 #
 # CANDIDATE_REV is HEAD unless given. Options:
 #   --experiment FILE     scene file of the working copy (experiments/shapes.json)
-#   --set PTR=VALUE       override of the scene, for both; repeatable (unless given: certified as a third method, no
-#                         probes, four repetitions)
+#   --set PTR=VALUE       override of the scene, for both; repeatable (default: certified as a third
+#                         method, no probes, four repetitions)
 #   --cmake OPTION        for the build of both, such as -DCMAKE_CXX_COMPILER=clang++; repeatable
-#   --out DIR             worktrees, results, tables and reports (build/ci); worktrees stay for the next call
+#   --out DIR             worktrees (kept for the next call), results, reports (build/ci)
 #   --judge PROGRAM       whose `compare` judges (the candidate's)
 #   --pairs N, --most N, --threshold SHARE, --allow COUNTER, --instructions SHARE
 #                         as scripts/ci/regression.py has them: 6, 24, 0.05, none, 0.01
-# Exit code: 0 same or faster; 1 slower or changed, or the candidate does not build or run; 2 usage; 3 no comparison, because
-# the base does not build or run or the environment lacks something; 4 unsure, and nothing else. Every outcome but 2 leaves
-# verdict.md and junit.xml in DIR, which say the same; what does not build or run is an error there, not a failure.
+# Exit code: 0 same or faster; 1 slower or changed, or the candidate does not build or run; 2 usage;
+# 3 no comparison: the base fails or the environment lacks something; 4 only unsure. All but 2 leave
+# verdict.md and junit.xml in DIR, which agree; there a failed build or run is an error.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -75,11 +75,11 @@ base="$(commit_of "${revisions[0]}")"
 candidate="$(commit_of "${revisions[1]:-HEAD}")"
 out="$(mkdir -p "$out" && cd "$out" && pwd)"
 
-# broken SIDE STEP MESSAGE LOG: an outcome without a comparison. Its reports and exit code: scripts/ci/outcome.py.
+# broken SIDE STEP MESSAGE LOG: outcome without comparison; exit code by scripts/ci/outcome.py.
 broken() { exec python3 "$ROOT/scripts/ci/outcome.py" "$out" "$@"; }
 
-# build_revision COMMIT: $out/tree/COMMIT/build/release/lmdbench, compiled as users' programs are, but for precompiled headers,
-# which ccache keeps only with settings of the user's. All worktrees share its hits: paths below a worktree do not count.
+# build_revision COMMIT: builds $out/tree/COMMIT/build/release/lmdbench like users' programs, but
+# without precompiled headers, which ccache keeps only with user settings. Worktrees share hits.
 build_revision() {
   local tree="$out/tree/$1"
   [[ ! -x $tree/build/release/lmdbench ]] || return 0
@@ -96,7 +96,7 @@ build_revision() {
 say "base      $base"
 say "candidate $candidate"
 rm -f "$out/verdict.md" "$out/junit.xml"
-# The base first: what builds the base can build, so a candidate that then does not build is at fault itself.
+# The base first: if it builds and the candidate does not, the candidate is at fault.
 build_revision "$base" ||
   broken base build "the base $base does not build, or this machine cannot build it" "$out/build-$base.log"
 build_revision "$candidate" ||

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# The region of our free choices in which each claim of the paper holds, and what the other readings of decisions E1 to E13
-# change: makes paths of other seeds, runs the sweeps experiments/sweeps/claim-*.json and readings.json, the roles of a closed
-# loop and the runs with polylines and contacts, and judges. Stopped and started again it goes on where it was. Leaves
-# results/claims/claim-regions.md. All of it takes about an hour of processor time.
+# The region of our free choices in which each claim of the paper holds, and the effect of other
+# readings of decisions E1 to E13: makes paths of other seeds, runs experiments/sweeps/claim-*.json,
+# readings.json, roles of a closed loop, polylines and contacts, and judges. A new call continues.
+# Leaves results/claims/claim-regions.md; takes about an hour of processor time.
 #   scripts/claims.sh [PART...]   only these, such as claim-k3, roles or verdicts
 #   LMDBENCH_BUILD=DIR            where the programs are (build/release)
-#   LMDBENCH_CLAIMS=DIR           where the results go (results/claims). What is in results/claims-busy is compared with them:
-#                                 LMDBENCH_CLAIMS=results/claims-busy scripts/claims.sh claim-k5 claim-k7 roles
-#                                 on another load, then scripts/claims.sh verdicts
+#   LMDBENCH_CLAIMS=DIR           where the results go (results/claims). verdicts compares them with
+#                                 results/claims-busy, made on another load by
+#                                 scripts/claims.sh claim-k5 claim-k7 roles with that DIR
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -22,7 +22,7 @@ APPROACHES=5 # of 6 s each
 PYTHON="$(find_python h5py matplotlib numpy)"
 mkdir -p "$OUT"
 
-# The hard contact's specification from other seeds, its approaches one after another.
+# The hard contact's specification with other seeds, its approaches one after another.
 make_paths() {
   "$PYTHON" - "$OUT" "$PATHS" "$APPROACHES" <<'PYTHON_END'
 import json
@@ -48,7 +48,7 @@ PYTHON_END
 sweep() { "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$1.h5" >"$OUT/$1.txt"; }
 run() { "$BUILD/lmdbench" run "experiments/$1.json" --out "$OUT/$2.h5" "${@:3}" </dev/null >&2; }
 
-# Those of the files that are there, a line each.
+# The files among the arguments that exist, one a line.
 existing() {
   local file
   for file in "$@"; do [[ ! -e $file ]] || printf '%s\n' "$file"; done

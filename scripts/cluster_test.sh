@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Fifty points on a Slurm that the test starts on the loopback interface, as root, and whose node fails in the middle; some minutes.
-# Installs the packages of scripts/cluster/packages.txt that are missing.
+# Fifty points on a Slurm that the test starts on the loopback interface, as root; its node fails
+# half-way. Takes some minutes. Installs missing packages of scripts/cluster/packages.txt.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

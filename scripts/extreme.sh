@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs every method on the extreme scenes (experiments/extreme/) and tells what each makes of them: results/extreme/*.h5,
-# summary.md and summary.json beside them, the table on standard output. Exit code 1 where a value is not a number that must be one
-# or an exact method is not exact.
+# Runs every method on the extreme scenes (experiments/extreme/). Leaves results/extreme/*.h5,
+# summary.md and summary.json beside them, and prints the table. Exit code 1 if a value that must be
+# a number is none, or if an exact method is not exact.
 #   --program FILE   the program; build/release/lmdbench without it
 #   --out DIR        folder of the result files; results/extreme without it
 #   SCENE...         only these, such as 'needles far'; all without any

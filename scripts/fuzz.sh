@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# fuzz.sh MINUTES [TARGET...]: builds the fuzzers (libFuzzer; address and undefined behaviour sanitizers) and runs each
-# target for so many minutes or 1e7 executions, one after the other, then prints executions, processor time, coverage and
-# finds a target. Without a name all of them. What they learn stays in build/fuzz/corpus, so that the next call goes on
-# from there; finds (crashes, leaks, inputs of more than 30 s) are in build/fuzz/finds. Exit code 1 where anything was
-# found. A find, made small with -minimize_crash=1, belongs into tests/fuzz/corpus/TARGET, which the tests replay.
+# fuzz.sh MINUTES [TARGET...]: builds the fuzzers (libFuzzer; address and undefined behaviour
+# sanitizers), runs all or these targets in turn, for so many minutes or 1e7 executions each, and
+# prints executions, processor time, coverage and finds. The corpus stays in build/fuzz/corpus for
+# the next call; finds (crashes, leaks, inputs of over 30 s) are in build/fuzz/finds. Exit code 1 if
+# there are any. A find, made small with -minimize_crash=1, goes into tests/fuzz/corpus/TARGET.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -17,7 +17,7 @@ if ! command -v clang++ >/dev/null ||
   [[ ! -e "$(clang++ -print-resource-dir)/lib/linux/libclang_rt.fuzzer-$(uname -m).a" ]]; then
   die "$EXIT_ENVIRONMENT" "there is no clang with libFuzzer (remedy: apt-get install clang libclang-rt-14-dev)"
 fi
-# Where the corpus of each target is.
+# Folder of each target's corpus.
 declare -A corpora=([triangle]=geometry/fuzz/corpus [lmd]=methods/fuzz/corpus)
 readonly EXECUTIONS=10000000 INTERRUPTED=72
 readers=(off ply obj import tum experiment path manifest sweep journal result)
@@ -31,15 +31,15 @@ done
 build="$ROOT/build/fuzz"
 (cd "$ROOT" && cmake --preset fuzz >/dev/null && cmake --build --preset fuzz --parallel "$JOBS") >&2
 mkdir -p "$build/finds" "$build/logs"
-# Under the sanitizers a first call into a library of the distribution may leak what it keeps for ever. Where memory came
-# from is told by one caller, not by thirty, which is a seventh of some targets' time: a find repeated by hand tells all.
-# Freed memory is kept out of use up to 1 MB: what fits a cache, and far more than one execution frees. Fresh memory is not
-# filled with a pattern.
+# Leaks: under sanitizers libraries of the distribution may keep memory of their first call. One
+# caller per allocation instead of thirty saves a seventh of some targets' time; a find repeated by
+# hand shows all. 1 MB of freed memory stays out of use: more than one execution frees, and in the
+# cache. Fresh memory is not filled.
 export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=0:allocator_may_return_null=1:malloc_context_size=1:quarantine_size_mb=1:thread_local_quarantine_size_kb=64:max_malloc_fill_size=0}"
-# What readers of named files are given is written anew for every execution: to memory, where there is such a place.
+# Each execution writes a new file for readers of named files: to memory, if there is such a place.
 [[ ! -d /dev/shm ]] || export TMPDIR=/dev/shm
-# What a target has outlived and does not repeat is no find: of a child process, which may crash in HDF5 or assimp (that is
-# what it is for) and writes a find all the same, and slow inputs of a machine that was busy elsewhere.
+# A find must repeat. Others come from a child process, whose crash in HDF5 or assimp is allowed but
+# writes a find, or from an input that was slow on a busy machine.
 drop_what_does_not_repeat() {
   local find scratch
   scratch="$(mktemp -d)"
@@ -59,23 +59,23 @@ for target in "${targets[@]}"; do
   longest=8192
   case $target in
   result) longest=16384 ;; # the smallest results of its corpus are longer than 8 KB
-  # Longer documents cost their length, and reach no more.
+  # Longer documents take time and cover no more.
   path | journal) longest=2048 ;;
   manifest) longest=330 ;; # one mesh takes 290
   experiment | sweep) longest=256 ;;
   esac
   mkdir -p "$corpus"
   : >"$log"
-  # No -entropic: with corpora of thousands its bookkeeping takes a third of the time.
-  # Lines of two numbers in the log are processor time: beside other work it is less than the minutes.
+  # No -entropic: with thousands of files its bookkeeping takes a third of the time.
+  # Lines of two numbers in the log are processor time, less than elapsed time on a busy machine.
   TIMEFORMAT='%U %S'
   end=$((SECONDS + minutes * 60)) status=1
   while ((status != 0 && SECONDS < end)); do
     { time "$build/lmdbench_${target}_fuzz" "$corpus" "$ROOT/tests/${corpora[$target]}" \
       -max_total_time=$((end - SECONDS)) -runs=$EXECUTIONS -timeout=30 -rss_limit_mb=4096 -max_len="$longest" \
       -entropic=0 -print_final_stats=1 -artifact_prefix="$build/finds/$target-" 2>&1 </dev/null; } >>"$log" 2>&1 && status=0 || status=$?
-    # An interrupted target (SIGINT) has told what it did. A find ends libFuzzer: it is told by exit code and file. One that
-    # does not repeat, such as a timeout on a busy machine, is none, and the target goes on.
+    # SIGINT ends a target early but well. A find ends libFuzzer (exit code and file); one that does
+    # not repeat, such as a timeout on a busy machine, does not count, and the target continues.
     ((status != INTERRUPTED)) || status=0
     drop_what_does_not_repeat "$target"
     finds="$(find "$build/finds" -name "$target-*" | wc -l)"

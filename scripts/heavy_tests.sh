@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# What scripts/test.sh leaves out for time, for a nightly run: the long tests (ctest label "heavy") and, without arguments, the build
-# without the optional parts. Arguments go to ctest, e.g. -R triangle.
+# For a nightly run: the long tests (ctest label "heavy") that scripts/test.sh leaves out and,
+# without arguments, the build without optional parts. Arguments go to ctest, e.g. -R triangle.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
-# What the scripts share; to be sourced. Talk goes to stderr.
+# Shared by the scripts, to be sourced. Messages go to stderr.
 
 ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 JOBS="$(nproc 2>/dev/null || echo 2)"
-# What needs the environment to change leaves with the program's own exit code for it.
+# The program's own exit code for a missing part of the environment.
 EXIT_ENVIRONMENT=4
 
-# The same run on a terminal and in CI: no questions, no colours in logs, numbers with a decimal point.
+# Equal runs on a terminal and in CI: no questions, no colours in logs, decimal points.
 export LC_ALL=C.UTF-8
 
 say() { printf '%s\n' "$*" >&2; }
@@ -19,7 +19,7 @@ die() {
   exit "$code"
 }
 
-# step "title" command...: runs the command (or function) and remembers title and wall time for `print_steps`.
+# step "title" command...: runs the command (or function); `print_steps` prints title and time.
 STEP_LINES=()
 step() {
   local title="$1" started=$EPOCHREALTIME status=0
@@ -39,8 +39,8 @@ print_steps() {
   printf '%s\n' "${STEP_LINES[@]}" >&2
 }
 
-# find_python MODULE...: prints the first interpreter that can import all modules. python3 may be a private build
-# (pyenv, conda) without the distribution's modules, so the distribution's own is tried too.
+# find_python MODULE...: prints the first interpreter that can import all modules. python3 may be a
+# private build (pyenv, conda) without them; then the distribution's own is tried.
 find_python() {
   local candidate imports
   imports="$(printf 'import %s;' "$@")"
@@ -54,11 +54,11 @@ find_python() {
   return "$EXIT_ENVIRONMENT"
 }
 
-# apt_as_root ARGUMENT...: apt-get with the rights that it needs, asking nothing.
+# apt_as_root ARGUMENT...: apt-get with root's rights, without questions.
 apt_as_root() {
   local as_root=()
   if ((EUID != 0)); then
-    # Without a terminal nobody can type a password: then only a sudo that asks for none is of use.
+    # Without a terminal nobody can type a password: sudo must not need one.
     if command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
       as_root=(sudo)
     else

@@ -2,16 +2,16 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 # Style and static analysis.
-#   --quick  clang-format, shellcheck, flake8, ASCII and licence headers (seconds)
-#   --tidy   clang-tidy over the library and the program (minutes; needs the release build's compile commands)
-#   --tidy-changed   the same for what changed since LMDBENCH_LINT_BASE (a commit; the parent commit unless set)
+#   --quick  clang-format, shellcheck, flake8, ASCII, licence headers, comments (seconds)
+#   --tidy   clang-tidy over the library and the program (minutes; needs compile commands)
+#   --tidy-changed   the same for changes since LMDBENCH_LINT_BASE (a commit; default: the parent)
 #   (none)   --quick and --tidy
 set -uo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT" || exit 1
 
-# Files that git knows or would add: what is ignored (build, meshes, results) is not ours to check.
+# Files that git knows or would add; ignored ones (build, meshes, results) are not checked.
 sources() { git ls-files --cached --others --exclude-standard -- "$@" | while read -r f; do [[ -e $f ]] && echo "$f"; done; }
 
 format() {
@@ -40,14 +40,34 @@ headers() {
   local files bad
   mapfile -t files < <(sources '*.h' '*.cpp' '*.py' '*.sh' '*CMakeLists.txt' '.ci/run')
   bad="$(for f in "${files[@]}"; do head -n 3 "$f" | grep -q SPDX-License-Identifier || echo "$f: no SPDX header"; done)"
-  # LC_ALL=C: a byte outside ASCII is a byte, whatever it means in another encoding.
+  # LC_ALL=C: grep takes bytes outside ASCII as they are, in any encoding.
   bad+="$(LC_ALL=C grep -nP '[^\x00-\x7F]' "${files[@]}" | sed 's/$/  (not ASCII)/')"
   [[ -z $bad ]] && say "headers and ASCII: ${#files[@]} files" && return 0
   printf '%s\n' "$bad" >&2
   return 1
 }
 
-# Sources of src/ that changed since the base, and those beside a changed header; all where there is no base.
+# Comments: at most 100 columns, but for a URL or NOLINT; and none of the words that the table "Terms"
+# of CONTRIBUTING.md replaces and that mean nothing else in this code.
+comments() {
+  local files bad words='ghosts?|company|doubts?|allowances?|contact pairs?|engaged|penetrat(e|es|ed|ing)'
+  words+='|hardness|calm(er)?|haptic (ticks?|steps?)'
+  mapfile -t files < <(sources '*.h' '*.cpp' '*.c' '*.py' '*.sh')
+  bad="$(awk -v words="[^a-z](${words})[^a-z]" '
+    FNR == 1 { mark = FILENAME ~ /[.](py|sh)$/ ? "^ *#" : "(^|[ ;])//|^ */?[*] " }
+    !match($0, mark) || /NOLINT/ { next }
+    length($0) > 100 && !/https?:/ {
+      print FILENAME ":" FNR ": comment up to column " length($0) " (remedy: end at 100; shorten it or move it above)" }
+    { text = tolower(substr($0, RSTART)) " " }
+    match(text, words) {
+      print FILENAME ":" FNR ": \"" substr(text, RSTART + 1, RLENGTH - 2) "\" (remedy: the term in CONTRIBUTING.md, Terms)" }
+  ' "${files[@]}")"
+  [[ -z $bad ]] && say "comments: ${#files[@]} files" && return 0
+  printf '%s\n' "$bad" >&2
+  return 1
+}
+
+# Sources in src/ that changed since the base, also by their header; all if there is no base.
 changed_sources() {
   local base="${LMDBENCH_LINT_BASE:-HEAD~1}" file
   if ! git rev-parse --quiet --verify "$base^{commit}" >/dev/null; then
@@ -59,9 +79,9 @@ changed_sources() {
   done | sort -u
 }
 
-# tidy FILE...: the compile commands also hold tests and benchmarks; the rules are for what ships.
+# tidy FILE...: not for tests and benchmarks; the rules are for code that ships.
 tidy() {
-  # A configured tree is enough; its headers are not precompiled, which clang could not read.
+  # A configured tree is enough; it must have no precompiled headers, as clang cannot read GCC's.
   local database="$ROOT/build/develop/compile_commands.json" log="$ROOT/build/develop/clang-tidy.log"
   (cd "$ROOT" && cmake --preset develop) >/dev/null ||
     die "$EXIT_ENVIRONMENT" "the tree cannot be configured (remedy: ./scripts/setup.sh)"
@@ -69,7 +89,7 @@ tidy() {
     say "clang-tidy: nothing to check"
     return 0
   fi
-  # The compile commands are GCC's; clang need not know all its warnings.
+  # The compile commands are GCC's; clang may not know all warnings.
   if run-clang-tidy -quiet -extra-arg=-Wno-unknown-warning-option -j "$JOBS" -p "$(dirname "$database")" "${@/%/\$}" >"$log" 2>/dev/null; then
     say "clang-tidy: $# files"
     return 0
@@ -97,6 +117,7 @@ case "${1:-}" in
     shell_scripts || status=1
     python_files || status=1
     headers || status=1
+    comments || status=1
     ;;&
   --tidy | "") tidy_all || status=1 ;;
   --tidy-changed) tidy_changed || status=1 ;;

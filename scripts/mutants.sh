@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Do the tests notice defects? Plants those of scripts/mutants.txt one by one in a worktree of its own, builds the test
-# program that must notice and runs it. Prints a table; exit code 1 when a defect survives, 2 when one does not fit the
-# code any more. Committed code alone is tried.
+# Do the tests notice defects? Plants those of scripts/mutants.txt one by one in its own worktree,
+# builds and runs the test program that must notice, and prints a table. Exit code 1 if a defect
+# survives, 2 if one does not fit the code. Only committed code is tried.
 #   --only NAME   this one; may be given again
 #   --keep        leave the worktree and its build (build/mutants) for the next run
 set -uo pipefail
@@ -41,7 +41,7 @@ else
 fi
 $keep || trap remove_tree EXIT
 
-# The fields of every mutant, a line each: name, file, from, to, test, only, equivalent; separated by the unit separator.
+# Fields of each mutant: name, file, from, to, test, only, equivalent; a unit separator between.
 mutants() {
   awk -v OFS='\037' '
     function row_ends() {
@@ -54,7 +54,7 @@ mutants() {
     END { row_ends() }' "$LIST"
 }
 
-# plant FILE FROM TO: replaces the text, which must be there exactly once.
+# plant FILE FROM TO: replaces the text, which must occur exactly once.
 plant() {
   FROM="$2" TO="$3" perl -0777 -i -pe '
     BEGIN { $from = $ENV{FROM}; $to = $ENV{TO}; }
@@ -86,7 +86,7 @@ while IFS=$'\037' read -r -u 3 name file from to program filter reason; do
     report "$name" "$file" "-" "equivalent: $reason"
     continue
   fi
-  # What fails without the defect proves nothing, and neither does a filter that selects no test.
+  # The test must pass without the defect, and the filter must select a test.
   if [[ -z ${sound[$program/$filter]:-} ]]; then
     if build "$program" && run_tests "$program" "$filter" && grep -qE '\[  PASSED  \] [1-9]' "$TREE/build/log"; then
       sound[$program/$filter]=yes

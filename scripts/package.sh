@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the Debian packages lmdbench, liblmdbench-dev and python3-lmdbench into build/package/packages, with and without
-# arguments:
-#   --check  lintian, and the life of the packages in a clean root that mmdebstrap makes (as root; needs the archive):
-#            install, run, upgrade, purge (scripts/packaging/check_packages.py)
+# Builds the Debian packages lmdbench, liblmdbench-dev and python3-lmdbench into
+# build/package/packages.
+#   --check  also lintian, and install, run, upgrade and purge in a clean root that mmdebstrap makes
+#            (as root; needs the archive; scripts/packaging/check_packages.py)
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the numbers of results/reference again, all at the commit that is checked out. Stopped and started again it goes on with what
-# is missing. Leaves results/reference-runs/COMMIT/PART.txt and figures, which scripts/reference_write.py puts into
-# results/reference; what stands round the numbers there is written by hand. Not here: verdicts.md, whose programs are built with a
-# planted slowdown (scripts/ci/verdict_study.py --help).
+# Makes the numbers of results/reference again, all at the commit that is checked out; a new call
+# continues. Leaves results/reference-runs/COMMIT/PART.txt and figures, which
+# scripts/reference_write.py puts into results/reference; the text around is written by hand. Not
+# here: verdicts.md, from programs with a planted slowdown (scripts/ci/verdict_study.py --help).
 #   scripts/reference.sh            every part: a night on two cores that have nothing else to do
 #   scripts/reference.sh PART...    only these, such as deform or recall
 #   scripts/reference.sh --list     the parts
@@ -15,7 +15,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT"
 BUILD="${LMDBENCH_BUILD:-build/release}"
 
-# Each prints what results/reference/PART.md (or of the same beginning) is written from.
+# results/reference/PART.md (or a name that begins so) is written from what PART prints.
 PARTS=(claims claim-regions completeness continuous-force deep-contact deform devices extreme figures flat global-search hard-soft hostile-input
   interrupted-runs jumps kernel leave-out ledger own-parts packages passivity realtime recall rivals scaling stability stability-map
   triangle_accuracy truth tuned-constants work-precision worlds)
@@ -24,14 +24,14 @@ study() { "$BUILD/lmdbench-study" "$@"; }
 judge() { "$BUILD/lmdbench-judge" "$@"; }
 run() { "$BUILD/lmdbench" run "experiments/$1.json" --out "$OUT/${1##*/}.h5" "${@:2}" </dev/null >&2; }
 figure() { "$PYTHON" "scripts/figures/$1.py" "${@:2}"; }
-# sweep NAME PAGE: what the sweep shows, as PAGE.md and PAGE.png.
+# sweep NAME PAGE: the sweep's tables as PAGE.md and its figure as PAGE.png.
 sweep() {
   "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$2.h5"
   figure sweep "$OUT/$2.h5" --out "$OUT" --name "$2"
 }
-# Without machine parts, which are not cross-checked and are for the judge of flat contact: a bolt in a nut alone takes hours.
+# Without machine parts, which are for the judge of flat contact: a bolt in a nut takes hours.
 extreme_scenes() { printf '%s\n' experiments/extreme/*.json | grep -vE '/(bolt|gears|peg|box-on-table)[^/]*$'; }
-# Open loops with LMD lists, which several parts read.
+# Open loops with LMD lists, for several parts.
 runs_with_lmds() {
   local scene
   for scene in "$@"; do [[ -s $OUT/$scene.h5 ]] || run "$scene" --set /record/lmds=true; done

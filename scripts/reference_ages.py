@@ -16,7 +16,7 @@ from pathlib import Path
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 FOLDER = os.path.join(ROOT, "results", "reference")
 REGISTER = os.path.join(FOLDER, "README.md")
-ADDED = "the one that added it"  # a file cannot name the commit that it is in
+ADDED = "the one that added it"  # a file cannot name its own commit
 OLDER = "older"
 COMMITS, MARK = 2, 4  # columns
 

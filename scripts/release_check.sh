@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Everything that the project says of itself, at the commit that is checked out, part by part. Stopped and started again it goes on
-# with what is missing. Leaves results/release/COMMIT/PART.txt (what the part printed) and page.md: verdict, time and last line of
-# each. Exit code 1 where a part failed or is missing.
+# All claims of the project at the commit that is checked out, part by part; a new call continues.
+# Leaves results/release/COMMIT/PART.txt (the part's output) and page.md: verdict, time and last
+# line of each. Exit code 1 if a part failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -19,7 +19,7 @@ PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
 
-# in_fresh_clone COMMAND: what a newcomer does, whose folder holds what is committed and nothing else.
+# in_fresh_clone COMMAND: for a newcomer, whose folder only has committed files.
 in_fresh_clone() {
   local clone status=0
   clone="$(mktemp -d)"
@@ -28,7 +28,7 @@ in_fresh_clone() {
   rm -rf "$clone"
   return "$status"
 }
-# of_each N: poses of each of N kinds that make POSES together.
+# of_each N: poses of each of N kinds that make POSES in all.
 of_each() { echo $(((POSES + $1 - 1) / $1)); }
 study() { build_preset release >&2 && build/release/lmdbench-study "$@" --seed "$SEED"; }
 generated_parts() { study parts --generator "$1" --poses "$(of_each 20)"; }
@@ -52,7 +52,7 @@ part() {
   solids | shapes) generated_parts "$1" ;;
   metamorphic) study metamorphic --poses "$(of_each 35)" ;;
   rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 35)" --seed "$SEED" ;;
-  # Six hours of processor time in all, two of them for what all methods hang on.
+  # Six hours of processor time, two of them for what all methods need.
   fuzz-readers) scripts/fuzz.sh 20 off ply obj import tum experiment path manifest sweep journal result triangle ;;
   fuzz-lmd) scripts/fuzz.sh 120 lmd ;;
   regression)

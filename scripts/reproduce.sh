@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# From a fresh clone to the paper's figures: packages, build, meshes, the hard and the soft experiment, a small sweep of error
-# against run time, figures, page, summary. Leaves results/bunny-hard.h5, results/bunny-soft.h5, results/quick.h5, results/figures/
-# and results/report/index.html. The summary goes to standard output, all
-# else to standard error.
+# From a fresh clone to the paper's figures: packages, build, meshes, hard and soft experiment, a
+# small sweep of error against time, figures, page, summary. Leaves results/bunny-hard.h5,
+# results/bunny-soft.h5, results/quick.h5, results/figures/ and results/report/index.html. The
+# summary goes to standard output, everything else to standard error.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -17,7 +17,7 @@ FIGURES=results/figures
 REPORT=results/report
 started=$EPOCHREALTIME
 
-# Every step stops the script when it fails; what was timed until then is still told.
+# A failing step stops the script; the times so far are still printed.
 trap 'print_steps; say "  in all: $(seconds_since "$started")"' EXIT
 
 # The meshes that the experiments name, each once.
@@ -36,18 +36,18 @@ print("\n".join(sorted(names)))
 PYTHON_END
 )" || return
   mapfile -t meshes <<<"$names"
-  # Meshes come out of Debian packages; images are often shipped without the lists that say where those are.
+  # Meshes come from Debian packages; images often lack the package lists.
   "$LMDBENCH" mesh build "${meshes[@]}" </dev/null >&2 ||
     { apt_as_root update && "$LMDBENCH" mesh build "${meshes[@]}" </dev/null >&2; }
 }
 
-# The program alone: tests and benchmarks are the business of scripts/test.sh.
+# Only the program: tests and benchmarks belong to scripts/test.sh.
 build_program() { cmake --preset release && cmake --build --preset release --parallel "$JOBS" --target lmdbench; }
 
-# With the methods' own LMD sets, which the page shows beside the exact ones.
+# With the methods' own LMD sets, which the page shows beside the true ones.
 run_experiment() { "$LMDBENCH" run "experiments/$1.json" --out "results/$1.h5" --set /record/lmds=true </dev/null >&2; }
 
-# Figures 1 to 6: meshes, hierarchy, tests, neighbourhoods, visibility, as the program has them on the path of soft contact.
+# Figures 1 to 6: meshes, hierarchy, tests, neighbourhoods, visibility, on the soft contact's path.
 paper_figures() {
   local number
   for number in 1 2 3 4 5 6; do
@@ -55,7 +55,7 @@ paper_figures() {
   done
 }
 
-# Error against run time over the search period; what a run that was stopped had measured is taken from its journal.
+# Error against time over the search period; points of a stopped run come from its journal.
 run_sweep() { "$LMDBENCH" work-precision "experiments/sweeps/$1.json" --out "results/$1.h5" </dev/null >&2; }
 
 figures() {

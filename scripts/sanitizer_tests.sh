@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# The tests under sanitizers: address and undefined behaviour, or with the argument "tsan" threads. Further arguments go to
-# ctest, e.g. -R Certified.
+# The tests under sanitizers: address and undefined behaviour or, with the argument "tsan", threads.
+# Further arguments go to ctest, e.g. -R Certified.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"

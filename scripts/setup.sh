@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the packages of a list that are missing, of scripts/packages.txt without an argument. Does nothing, and needs neither
-# network nor root, when all are there.
+# Installs missing packages of a list, by default scripts/packages.txt. If none is missing it does
+# nothing, and needs neither network nor root.
 #   setup.sh [LIST]
 set -euo pipefail
 # shellcheck source=scripts/lib.sh

@@ -25,7 +25,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 FOLDER = os.path.join(ROOT, "build", "smallest")
 PROGRAM = os.path.join(FOLDER, "lmdbench")
 LEFT_OUT = ("assimp", "fcl", "octomap", "hdf5", "tbb", "xxhash")
-# A cube of four-cornered faces with indices counted from both ends, texture coordinates and a group.
+# A cube of quads with indices from both ends, texture coordinates and a group.
 CUBE_OBJ = """mtllib lost.mtl
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nvt 0 0
 g sides

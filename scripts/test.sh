@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Everything that a change must pass: style, build without warnings, tests, experiment files, a run end to end. Goes on
-# after a failure, so that one run shows all of them; the last line is 'N passed, N failed' (each other check counts as
-# one), with ', N skipped' where tests were: those proved nothing. Exit code 0 only when nothing failed. Left out for time: scripts/sanitizer_tests.sh, scripts/heavy_tests.sh,
-# which builds the program without its optional parts, too.
+# Everything that a change must pass: style, build without warnings, tests, experiment files, a run
+# end to end. Continues after failures; the last line is 'N passed, N failed' (each other check is
+# one), with ', N skipped' for tests that proved nothing. Exit code 0 only if nothing failed. Not
+# here, for time: sanitizer_tests.sh and heavy_tests.sh, which also builds without optional parts.
 set -uo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
@@ -36,7 +36,7 @@ tests() {
   rm -f "$report"
   step "$title" ctest_preset "$preset" "$report"
   local status=$?
-  # The attributes of the report's first element; without a report or with an empty one nothing was proved.
+  # Attributes of the report's first element; without a report or with an empty one nothing passed.
   total="$(grep -om1 'tests="[0-9]*"' "$report" 2>/dev/null | tr -dc 0-9)"
   bad="$(grep -om1 'failures="[0-9]*"' "$report" 2>/dev/null | tr -dc 0-9)"
   left_out="$(grep -om1 'skipped="[0-9]*"' "$report" 2>/dev/null | tr -dc 0-9)"
@@ -58,8 +58,8 @@ ctest_preset() {
     --output-junit "$2" </dev/null)
 }
 
-# Every committed experiment file must pass the program's own check (schema, then what the schema cannot say). A clean clone
-# has no fetched meshes: what has passed as far as them is right.
+# Every committed experiment must pass the program's check (schema and further rules). A clean clone
+# has no fetched meshes: a file is right if only its mesh is missing.
 experiment_files() {
   local file message count=0 bad=0
   for file in "$ROOT"/experiments/*.json; do
@@ -75,8 +75,8 @@ experiment_files() {
   ((count > 0 && bad == 0))
 }
 
-# A whole run on generated shapes, without the network: the result must be what results/README.md describes, and the
-# figure must come out of it.
+# A whole run on generated shapes, without network: the result must be as in results/README.md
+# describes, and give its figure.
 end_to_end() {
   local python result="$ROOT/build/release/shapes.h5" folder="$ROOT/build/release/figures"
   python="$(find_python h5py matplotlib numpy)" || return
@@ -95,7 +95,7 @@ if check "Build (release, warnings are errors)" build_preset release -DLMDBENCH_
   tests "Tests (release)" release
   check "Experiment files" experiment_files
   check "Run, result format and figure" end_to_end
-  # All of it takes minutes: ./scripts/lint.sh
+  # The full check takes minutes: ./scripts/lint.sh
   check "Static analysis of what changed" "$ROOT/scripts/lint.sh" --tidy-changed
 fi
 print_steps

@@ -32,7 +32,7 @@ CONSTANTS = {
     "LARGEST_HORIZON": (FORECAST, "LARGEST_HORIZON = {},", ("1.0", "2.0", "4.0", "8.0", "16.0")),
     "HORIZON_CUTOFFS": (FORECAST, "HORIZON_CUTOFFS = {},", ("0.25", "0.5", "1.0", "2.0", "4.0")),
     "MOST_CORNER_PAIRS": (TOUCHING, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it
-    # Of meshes that deform: --only MOST_GROWTH experiments/deforming.json
+    # For deforming meshes: --only MOST_GROWTH experiments/deforming.json
     "MOST_GROWTH": (REFIT, "MOST_GROWTH = {};", ("1.05", "1.15", "1.3", "1.6", "4.0")),
     "LEAST_SHARE": (LIFETIME, "LEAST_SHARE = {}F;", ("0.0", "0.25", "0.5", "0.75")),
     "LARGEST_SHARE": (POLICY, "LARGEST_SHARE = {};", ("0.3", "0.4", "0.6")),
@@ -70,7 +70,7 @@ def instructions(program, experiment, frames, folder):
                 *SCENE, "--set", f"/frames={frames}", "--out", out], env=os.environ | {"OPENSSL_ia32cap": ":~0x0"})
     counted = re.search(r"Collected : (\d+)", done.stderr)
     named = re.search(r"hash ([0-9a-f]{16})", done.stdout)
-    if not counted or not named or int(counted[1]) == 0:  # inlined elsewhere, a search has no name to count by
+    if not counted or not named or int(counted[1]) == 0:  # an inlined search has no name to count
         fail("callgrind saw no search, or the program said something unexpected")
     os.remove(out)
     return int(counted[1]), named[1]

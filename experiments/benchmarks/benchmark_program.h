@@ -14,26 +14,26 @@
 #include <utility>
 #include <vector>
 
-/// What the Google Benchmark programs share.
+/// Shared by the Google Benchmark programs.
 namespace lmdbench::experiments {
 
-/// One input, many implementations.
+/// One input and many implementations.
 struct BenchmarkTask {
-  std::string name;           ///< Benchmarks are called <name>/<implementation>/<input>.
+  std::string name;           ///< Benchmarks are named <name>/<implementation>/<input>.
   std::function<void()> add;  ///< Registers them.
 };
 
-/// The main function of such a program: reads Google Benchmark's flags and the names of tasks, registers the
-/// benchmarks of those (all without a name), runs them. Errors are told on standard error.
+/// The main function of these programs: reads Google Benchmark's flags and task names, registers
+/// the benchmarks of these tasks (none: of all), runs them. Errors go to standard error.
 /// @return exit code (error.h)
 int run_benchmarks(int argc, char** argv, const std::vector<BenchmarkTask>& tasks);
 
-/// Folder of built meshes: the variable LMDBENCH_MESHES, "meshes" unless set.
+/// Folder of built meshes: the variable LMDBENCH_MESHES, or "meshes".
 std::filesystem::path benchmark_meshes();
 
-/// A function that calls `make` when it is called first and gives the same answer ever after. Google
-/// Benchmark calls a benchmark many times, to find the number of iterations and for every repetition; what is
-/// expensive and not timed is made once, and only for the benchmarks that the filter lets through.
+/// A function that calls `make` once, at its first call, and returns that result ever after. Google
+/// Benchmark calls a benchmark often, for the number of iterations and repetitions; costly untimed
+/// work is done once, and only for benchmarks that pass the filter.
 template <class Make>
 auto once(Make make) {
   return [ make = std::move(make),
@@ -43,12 +43,12 @@ auto once(Make make) {
   };
 }
 
-/// Writes the error beside the time, as counters; skips the benchmark with the reason when the implementation
-/// breaks its promise.
+/// Writes the error beside the time, as counters; skips the benchmark with the reason when the
+/// implementation breaks its promise.
 /// @return whether it may be timed
 bool accept(benchmark::State& state, const LmdError& error);
 
-/// The same for a check that either passes or objects.
+/// The same for a check; empty when it passes.
 bool accept(benchmark::State& state, const std::string& objection);
 
 }  // namespace lmdbench::experiments

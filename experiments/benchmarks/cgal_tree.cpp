@@ -41,7 +41,7 @@ class CgalTree::Implementation {
   }
   double distance(const Vec3& point) const { return std::sqrt(tree_.squared_distance(to_cgal(point))); }
   double distance(const Vec3& point, double limit) const {
-    // A hint at the limit: the tree looks for nothing farther than its hint.
+    // A hint at the limit: the tree searches no farther than its hint.
     const Kernel::Point_3 hint = to_cgal(point + Vec3(limit, 0.0, 0.0));
     return std::sqrt(CGAL::squared_distance(to_cgal(point), tree_.closest_point(to_cgal(point), hint)));
   }

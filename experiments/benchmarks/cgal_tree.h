@@ -9,7 +9,7 @@
 
 namespace lmdbench::experiments {
 
-/// A mesh in CGAL's tree of boxes (GPL: nothing but the benchmark programs named after it links this).
+/// A mesh in CGAL's tree of boxes (GPL: only the benchmark programs named after it link this).
 class CgalTree {
  public:
   explicit CgalTree(const TriangleMesh& mesh);
@@ -17,7 +17,7 @@ class CgalTree {
   CgalTree(CgalTree&& other) noexcept;
   CgalTree& operator=(CgalTree&& other) noexcept;
 
-  /// Distance of the mesh's nearest point, or `limit` when that is farther [m].
+  /// Distance of the mesh's nearest point, or `limit` where that is smaller [m].
   double distance(const Vec3& point, double limit) const;
   double distance(const Vec3& point) const;
 

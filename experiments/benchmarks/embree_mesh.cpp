@@ -11,8 +11,8 @@
 namespace lmdbench::experiments {
 namespace {
 
-/// Roundings to single precision of a coordinate that a search grants, relative to the largest: the vertex,
-/// the point, the reach and the sums between them lose less than a tenth of it.
+/// Margin of a search for roundings to single precision, relative to the largest coordinate. Those
+/// of vertex, point, reach and the sums between them need less than a tenth of it.
 constexpr double SINGLE_PRECISION_MARGIN = 1e-5;
 
 struct QueryState {

@@ -12,14 +12,14 @@ struct RTCDeviceTy;
 
 namespace lmdbench::experiments {
 
-/// A mesh in Embree's hierarchy, which is in single precision. Distances come from the mesh's own
-/// coordinates, and searches reach a little farther than asked, so what is found is exact.
+/// A mesh in Embree's single-precision hierarchy. Distances use the mesh's own coordinates, and
+/// searches reach a little farther than asked, so that results are exact.
 class EmbreeMesh {
  public:
   explicit EmbreeMesh(const TriangleMesh& mesh);
 
-  /// Calls `visit(triangle)` for triangles within reach of the point, nearest nodes first; it returns the
-  /// reach [m] from then on, which may only shrink. Embree's point query, exact when `visit` is.
+  /// Calls `visit(triangle)` for triangles within reach of the point, nearest nodes first; it
+  /// returns the next reach [m], which may only shrink. Embree's point query, exact if `visit` is.
   template <class Visit>
   void for_each_near(const Vec3& point, double reach, Visit&& visit) const {
     query(point, reach, [&visit](std::int32_t triangle) { return visit(triangle); });

@@ -7,7 +7,7 @@
 
 namespace lmdbench::experiments {
 
-/// A global search in every frame: what methods without local tracking do, and peers.
+/// A global search in every frame, for methods without local tracking and for peers.
 std::unique_ptr<FrameLoop> make_search_every_frame(const SearchImplementation& search,
                                                    const RecordedPath& path);
 

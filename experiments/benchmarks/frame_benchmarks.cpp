@@ -6,7 +6,7 @@
 namespace lmdbench::experiments {
 namespace {
 
-/// Both paths are in contact nearly all the time here, and slide and turn.
+/// Here both paths slide and turn and are nearly always in contact.
 constexpr std::size_t FIRST_FRAME = 1000;
 constexpr std::size_t FRAME_COUNT = 1500;
 /// No divisor of the frames between two searches, so that sets of every age are checked.

@@ -9,12 +9,12 @@
 
 namespace lmdbench::experiments {
 
-/// The recorded paths of the hard and the soft experiment, in the part where they are in contact; loaded once.
+/// Recorded paths of the hard and the soft experiment, while in contact; loaded once.
 const std::vector<RecordedPath>& contact_paths();
 
-/// Registers <task>/<implementation>/<path> with Google Benchmark: an iteration is the whole
-/// path, so that every frame counts alike, and the counter "per_frame" is the time of one
-/// frame. `paths` must outlive the run.
+/// Registers <task>/<implementation>/<path> with Google Benchmark. An iteration is the whole path,
+/// so that every frame has the same weight; the counter "per_frame" is the time of one frame.
+/// `paths` must outlive the run.
 void add_frame_benchmarks(const std::string& task, const std::vector<FrameImplementation>& implementations,
                           const std::vector<RecordedPath>& paths);
 

@@ -13,24 +13,24 @@
 #include <string>
 #include <vector>
 
-/// Tasks along a recorded path: what one haptic frame takes ("whole frame"), and what its
-/// local part takes ("local tracking").
+/// Tasks along a recorded path: cost of a haptic frame ("whole frame") and of its local part
+/// ("local tracking").
 namespace lmdbench::experiments {
 
-/// Consecutive frames of an experiment, with the truth at some of them.
+/// Consecutive frames of an experiment, with the truth in some of them.
 struct RecordedPath {
   std::string name;
   Scene scene;
   DriverInput input;  ///< Poses of the frames.
   DriverChoice driver;
   std::vector<DrivenMethod> methods;      ///< The experiment's.
-  ForceProfile profile;                   ///< Of what is no method of the experiment.
+  ForceProfile profile;                   ///< For loops outside the experiment's methods.
   std::vector<LmdSet> lmds = {};          ///< LMDs of every frame, by `certified`.
   std::vector<std::size_t> checked = {};  ///< Frames whose truth is known, ascending.
-  Truth truth = {};                       ///< One a checked frame, by `exhaustive`.
+  Truth truth = {};                       ///< One per checked frame, by `exhaustive`.
 
   const std::vector<Pose>& poses() const { return input.poses; }
-  /// The experiment's method of that label; where it has none, the method of that name with default options.
+  /// The experiment's method of that label, else the method of that name with default options.
   DrivenMethod method(const std::string& method) const;
 };
 
@@ -39,22 +39,22 @@ struct PathChoice {
   std::filesystem::path meshes;
   std::size_t first_frame = 0;
   std::size_t frame_count = 0;
-  std::size_t check_stride = 1;  ///< Truth is sought in every so many frames.
+  std::size_t check_stride = 1;  ///< Truth is computed in every so many frames.
 };
 
-/// @throws Error for an experiment, mesh or path that cannot be used, or when the path is shorter
+/// @throws Error for an unusable experiment, mesh or path, or a path that is too short
 RecordedPath load_path(const PathChoice& choice);
 
 /// Fills in LMDs, checked frames and truth.
 void find_truth(RecordedPath& path, std::size_t check_stride);
 
-/// Something that is done in every haptic frame.
+/// Work of every haptic frame.
 class FrameLoop {
  public:
   virtual ~FrameLoop() = default;
-  /// What is timed. Frames come one after the other; frame 0 begins anew.
+  /// The timed work. Frames follow each other; frame 0 restarts.
   virtual void step(std::size_t frame) = 0;
-  /// Smallest distance that the last step found [m]; NaN where it found nothing.
+  /// Smallest distance of the last step [m]; NaN without one.
   virtual double minimum_distance() const = 0;
   /// LMD set after the last step; null for peers that find a nearest pair only.
   virtual const LmdSet* lmds() const = 0;
@@ -63,7 +63,7 @@ class FrameLoop {
 struct FrameImplementation {
   std::string name;
   Promise promise = Promise::APPROXIMATION;
-  bool slow = false;  ///< Steps at the checked frames only; for loops that keep nothing from frame to frame.
+  bool slow = false;  ///< Only steps at checked frames; for loops that keep nothing.
   std::function<std::unique_ptr<FrameLoop>(const RecordedPath&)> make;
 };
 

@@ -3,7 +3,7 @@
 #include <benchmarks/benchmark_program.h>
 #include <benchmarks/tasks.h>
 
-/// lmdbench-benchmark [TASK...] [--benchmark_filter=...]: every task under Google Benchmark, or those that are named.
+/// lmdbench-benchmark [TASK...] [--benchmark_filter=...]: all or the named tasks, Google Benchmark.
 int main(int argc, char** argv) {
   using namespace lmdbench::experiments;
   return run_benchmarks(argc, argv,

@@ -4,8 +4,8 @@
 #include <benchmarks/global_search/benchmarks.h>
 #include <benchmarks/hierarchy_build/benchmarks.h>
 
-/// lmdbench-benchmark-cgal [TASK...]: the tasks of CGAL's tree, whose licence keeps it out of the other program. FCL
-/// stands beside it, for a ratio from one process.
+/// lmdbench-benchmark-cgal [TASK...]: the tasks of CGAL's tree, which its licence keeps out of the
+/// other program. FCL runs beside it, for a ratio from one process.
 int main(int argc, char** argv) {
   using namespace lmdbench::experiments;
   return run_benchmarks(argc, argv,

@@ -12,8 +12,8 @@
 #include <memory>
 #include <vector>
 
-/// lmdbench-judge accuracy [--million]: prints results/reference/triangle_accuracy.md, half a minute; with --million
-/// triangle_accuracy_million.md, some minutes.
+/// lmdbench-judge accuracy [--million]: prints results/reference/triangle_accuracy.md in half a
+/// minute; with --million triangle_accuracy_million.md in some minutes.
 namespace lmdbench::exact {
 namespace {
 

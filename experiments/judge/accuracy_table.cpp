@@ -14,7 +14,7 @@ namespace lmdbench::testing {
 namespace {
 
 constexpr std::uint64_t SEED = 401;
-/// Pairs that are held at a time.
+/// Pairs that are held in memory at a time.
 constexpr int BLOCK = 4096;
 
 struct Pairs {
@@ -29,7 +29,7 @@ struct Pairs {
   }
 };
 
-/// What is proved of a pair.
+/// Proved facts about a pair.
 struct Truth {
   double magnitude = 0.0;
   long double low = 0.0L, high = 0.0L;
@@ -43,7 +43,7 @@ Truth truth_of(const Triangle& a, const Triangle& b) {
   return {size, bracket.low, bracket.high, false};
 }
 
-/// How far a point is off a triangle at most.
+/// Upper bound of the distance of a point from a triangle.
 long double off(const Vec3& point, const Triangle& triangle) {
   if (!point.allFinite()) return std::numeric_limits<long double>::infinity();
   return distance_bracket({point, point, point}, triangle).high;
@@ -55,7 +55,7 @@ long double largest_error(const DistanceAnswer& answer, const Triangle& a, const
       std::max(std::abs(answer.distance - truth.low), std::abs(answer.distance - truth.high));
   if (!answer.points) return of_distance;
   const auto& [point_a, point_b] = *answer.points;
-  // A corner is where it says, to the bit; no bracket is needed for it.
+  // A corner is on its triangle to the bit; no bracket is needed.
   const auto is_corner = [](const Vec3& p, const Triangle& t) { return p == t[0] || p == t[1] || p == t[2]; };
   const long double off_a = is_corner(point_a, a) ? 0.0L : off(point_a, a);
   const long double off_b = is_corner(point_b, b) ? 0.0L : off(point_b, b);
@@ -76,7 +76,7 @@ void judge(const DistanceAnswer& answer, const Triangle& a, const Triangle& b, c
   cell.worst = std::max(cell.worst, error);
 }
 
-/// Processor time of this thread: other processes on the machine do not count.
+/// Processor time of this thread, unaffected by other processes.
 double thread_nanoseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

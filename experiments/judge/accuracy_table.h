@@ -10,10 +10,10 @@
 namespace lmdbench::testing {
 
 /// Errors are relative to the largest coordinate of the pair.
-inline constexpr double WRONG_ERROR = 1e-12;  ///< the published bound of our kernels
-inline constexpr double GROSS_ERROR = 1e-3;   ///< nobody's rounding
+inline constexpr double WRONG_ERROR = 1e-12;  ///< published bound of our kernels
+inline constexpr double GROSS_ERROR = 1e-3;   ///< too large for any rounding
 
-/// What one kernel did on one family.
+/// Results of one kernel on one family.
 struct AccuracyCell {
   int wrong = 0;
   int gross = 0;
@@ -27,25 +27,25 @@ struct AccuracyRow {
   std::vector<AccuracyCell> cells;  ///< in the order of distance_kernels()
 };
 
-/// Judges every kernel on the first `pairs` pairs of a family by proved brackets of the true distance and by
-/// exact predicates. An error is counted from the far end of the bracket, so none is too small; where a
-/// kernel promises nearest points, the distance of a point from its triangle is an error too.
+/// Judges every kernel on the first `pairs` pairs of a family by proved brackets of the true
+/// distance and by exact predicates. Errors count from the bracket's far end, so none is too small.
+/// Where a kernel promises nearest points, a point off its triangle is an error too.
 AccuracyRow judge_family(const TriangleFamily& family, int pairs);
 
 /// The same for every family.
 std::vector<AccuracyRow> judge_accuracy(int pairs);
 
-/// Median processor time of a pair [ns] for each kernel, in runs that alternate between the kernels.
+/// Median processor time of a pair [ns] for each kernel, from runs that alternate between kernels.
 std::vector<double> time_kernels(const TriangleFamily& family, int pairs, int repetitions);
 
-/// A row of the table of answers in Markdown. The same on every machine.
+/// A row of the table of answers in Markdown, the same on every machine.
 std::string accuracy_markdown(const AccuracyRow& row);
 
-/// The whole table, with the sum of its rows and what the kernels said about contact.
+/// The whole table, with the sum of its rows and the kernels' answers about contact.
 std::string accuracy_markdown(const std::vector<AccuracyRow>& rows, int pairs);
 
-/// Where the published tables stand, relative to the source tree, and the pairs a family that they are made
-/// of. The short one is judged on the beginning of the long one's pairs.
+/// The published tables, relative to the source tree, and their pairs per family. The short one
+/// uses the first pairs of the long one.
 inline constexpr const char* PUBLISHED_TABLE = "results/reference/triangle_accuracy.md";
 inline constexpr int PUBLISHED_PAIRS = 10000;
 inline constexpr const char* MILLION_TABLE = "results/reference/triangle_accuracy_million.md";

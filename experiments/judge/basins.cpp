@@ -34,7 +34,7 @@ std::vector<Basin> find_basins(const CellPairs& pairs, double tolerance, double 
   });
   constexpr std::size_t NOT_YET = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> parent(pairs.size(), NOT_YET);
-  std::vector<std::size_t> lowest(pairs.size());  // of a root: where its part was born
+  std::vector<std::size_t> lowest(pairs.size());  // of a root: pair where its component was born
   const auto root = [&](std::size_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;

@@ -9,21 +9,21 @@
 
 namespace lmdbench::exact {
 
-/// A connected part of { (x, y) : |x - y| <= least + tolerance } that holds a local minimum of the distance and from
-/// which no way leads lower that does not first climb.
+/// A connected part of { (x, y) : |x - y| <= least + tolerance } that holds a local minimum of the
+/// distance. No way leads lower from it without a climb.
 struct Basin {
   double least = 0.0;
-  /// How far every way to a lower point climbs; infinite where none is within reach.
+  /// Least climb of any way to a lower point; infinite where none is within reach.
   double climb = 0.0;
   std::vector<std::size_t> pairs;  ///< Those of CellPairs within the tolerance, ascending.
 };
 
-/// The basins that take a climb of at least `least_climb` to leave: the components of sublevel sets, by union of pairs
-/// of cells in the order of their distances (a pair of closed cells is a convex set, on which the distance is convex, so
-/// that two pairs meet below a level exactly where the cells that they share come that near).
+/// The basins that take a climb of at least `least_climb` to leave: components of sublevel sets, by
+/// union of pairs of cells in order of distance. A pair of closed cells is a convex set with a
+/// convex distance, so two pairs meet below a level exactly where their common cells are that near.
 std::vector<Basin> find_basins(const CellPairs& pairs, double tolerance, double least_climb);
 
-/// Pairs that hang together with one of them over pairs whose distances are in a range.
+/// Pairs connected to `start` through pairs whose distances are in a range.
 std::vector<std::size_t> connected_to(const CellPairs& pairs, std::size_t start, double low, double high);
 
 }  // namespace lmdbench::exact

@@ -22,7 +22,7 @@ using Point = Kernel::Point_3;
 using Vector = Kernel::Vector_3;
 using Integer = CGAL::Gmpz;
 
-/// Exponent of the last bit that is set in any of the coordinates.
+/// Exponent of the lowest set bit in any of the coordinates.
 int last_exponent(const std::vector<Vec3>& points, int lowest) {
   for (const Vec3& p : points) {
     for (const double x : p) {
@@ -52,17 +52,17 @@ std::vector<Point> integers(const std::vector<Vec3>& points, int exponent) {
 /// A critical pair in the insides of two cells.
 struct Critical {
   CGAL::Gmpq squared;         ///< In units of 4^exponent.
-  double on_a = 0, on_b = 0;  ///< Where on an edge, from its first end.
+  double on_a = 0, on_b = 0;  ///< Position on an edge, from its first end.
 };
 
 double ratio(const Integer& over, const Integer& under) {
   return CGAL::to_double(CGAL::Gmpq(over, under));
 }
 
-/// Numbers beyond which the coordinates of a foot in double precision say that it is outside.
+/// How far outside a foot's double-precision coordinates must be to prove that it is outside.
 constexpr double SURELY = 1e-6;
 
-/// The exact tests for two meshes.
+/// The exact tests for the cells of two meshes.
 class CriticalPairs {
  public:
   CriticalPairs(const Cells& a, const Cells& b)

@@ -13,12 +13,12 @@
 #include <unordered_map>
 #include <vector>
 
-/// Distances between the vertices, edges and triangles of two meshes, in exact arithmetic: the function whose local
-/// minima are the LMDs, cell by cell.
+/// Distances between the vertices, edges and triangles of two meshes in exact arithmetic: the
+/// function whose local minima are the LMDs, cell by cell.
 namespace lmdbench::exact {
 
-/// Vertices, edges and triangles of a mesh in one numbering, closed, with its vertices in the world as RigidTransform
-/// rounds them: from here on they are exact.
+/// Vertices, edges and triangles of a mesh in one numbering, as closed cells. Its vertices are in
+/// the world as RigidTransform rounds them; from here on they are exact.
 class Cells {
  public:
   Cells(const Surface& surface, const RigidTransform& X_WS);
@@ -26,10 +26,10 @@ class Cells {
   std::int32_t count() const { return static_cast<std::int32_t>(corners_.size()); }
   FeatureId id(std::int32_t cell) const;
   std::int32_t number(const FeatureId& id) const;
-  /// 0, 1 or 2.
+  /// Dimension of the cell: 0, 1 or 2.
   int dimension(std::int32_t cell) const { return static_cast<int>(id(cell).kind); }
   std::span<const std::int32_t> corners(std::int32_t cell) const;
-  /// Cells of one dimension less on it, and of one more around it.
+  /// Cells one dimension lower on its boundary, and one higher around it.
   std::span<const std::int32_t> facets(std::int32_t cell) const {
     return facets_[static_cast<std::size_t>(cell)];
   }
@@ -40,12 +40,12 @@ class Cells {
   const Surface& surface() const { return surface_; }
   const std::vector<Vec3>& vertices_W() const { return vertices_W_; }
   const Vec3& vertex(std::int32_t index) const { return vertices_W_[static_cast<std::size_t>(index)]; }
-  /// Of a cell that is a triangle.
+  /// @pre the cell is a triangle
   Triangle triangle(std::int32_t cell) const;
-  /// Not normalised, outwards; of a cell that is a triangle.
+  /// Outward, not normalised. @pre the cell is a triangle
   Vec3 normal(std::int32_t cell) const;
-  /// On which side of the surface a direction leaves the inside of a cell: the sine with the angle-weighted sum of the
-  /// normals around it, positive outwards.
+  /// On which side of the surface a direction leaves the inside of a cell: the sine with the
+  /// angle-weighted sum of the normals around it, positive outwards.
   double side(std::int32_t cell, const Vec3& direction_W) const;
 
  private:
@@ -55,17 +55,17 @@ class Cells {
   std::vector<std::vector<std::int32_t>> facets_, cofaces_;
 };
 
-/// The nearest that two closed cells come.
+/// The least distance of two closed cells.
 struct CellPair {
   std::int32_t a = -1, b = -1;
-  double distance = std::numeric_limits<double>::infinity();  ///< Of the exact value, rounded once [m].
-  /// Whether one pair of points in the insides of both is critical and alone there (vertex, vertex; vertex, edge;
-  /// vertex, triangle; edge, edge); then it is p and q, else the distance is that of a pair of smaller cells.
+  double distance = std::numeric_limits<double>::infinity();  ///< Exact value, rounded once [m].
+  /// Whether exactly one pair of points in both insides is critical (vertex-vertex, vertex-edge,
+  /// vertex-triangle or edge-edge): p and q. Else a pair of smaller cells has the distance.
   bool critical = false;
   Vec3 p = Vec3::Zero(), q = Vec3::Zero();  ///< Rounded [m].
 };
 
-/// All pairs of cells no farther apart than a reach, smaller cells first.
+/// All pairs of cells within `reach` of each other, smaller cells first.
 class CellPairs {
  public:
   CellPairs(const Cells& a, const Cells& b, double reach);
@@ -77,7 +77,7 @@ class CellPairs {
   int dimension(std::size_t i) const { return a_.dimension(pairs_[i].a) + b_.dimension(pairs_[i].b); }
   std::optional<std::size_t> find(std::int32_t a, std::int32_t b) const;
 
-  /// Calls visit(index) for the pairs that differ from one by a step of one dimension on one side.
+  /// Calls visit(index) for the pairs that differ from one by one dimension on one side.
   template <typename Visit>
   void for_neighbours(std::size_t i, Visit visit) const {
     const CellPair& pair = pairs_[i];

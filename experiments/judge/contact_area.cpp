@@ -55,7 +55,7 @@ Polygon left_of(const Polygon& polygon, const Flat& from, const Flat& to) {
   return result;
 }
 
-/// A triangle seen along an axis, counter-clockwise.
+/// A triangle projected along an axis, counter-clockwise.
 Polygon seen_along(std::size_t axis, const Triangle& t, const Vector& shift) {
   Polygon result;
   for (const Vec3& corner : t) {
@@ -77,7 +77,7 @@ bool is_triangles(const CellPairs& pairs, std::size_t pair) {
   return pairs.dimension(pair) == 4;
 }
 
-/// From the plane of b to that of a, square to both.
+/// Perpendicular vector from the plane of b to that of a.
 Vector between_planes(const Face& a, const Face& b) {
   return a.normal * (((a.first - b.first) * a.normal) / a.normal.squared_length());
 }

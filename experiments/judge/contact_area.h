@@ -9,19 +9,19 @@
 
 namespace lmdbench::exact {
 
-/// Where triangles of two meshes lie in exactly parallel planes, face each other and are nearest over an area.
+/// Where triangles of two meshes lie in parallel planes, face each other and share nearest areas.
 struct ContactArea {
   double area = 0.0;                                          ///< m^2
   Vec3 centroid_a = Vec3::Zero(), centroid_b = Vec3::Zero();  ///< On the planes of the two meshes.
-  /// Pairs of triangles at a tilt of up to 1e-6 that is not 0: whether they share an area is left to tolerance.
+  /// Some triangles are tilted by up to 1e-6, but not 0: tolerance decides if they share an area.
   bool nearly = false;
 };
 
-/// Whether a pair is of triangles in exactly parallel planes with opposite normals, each on the outer side of the other.
+/// Whether two triangles lie in exactly parallel planes, each on the other's outer side.
 bool exactly_facing(const CellPairs& pairs, std::size_t pair);
 
-/// Sums over pairs of triangles; others are passed over. Every overlap is clipped in rational numbers; areas and moments
-/// are rounded once before they are added.
+/// Sum over the pairs of triangles among `which`. Every overlap is clipped in rational numbers;
+/// areas and moments are rounded once before they are added.
 ContactArea contact_area(const CellPairs& pairs, std::span<const std::size_t> which);
 
 }  // namespace lmdbench::exact

@@ -24,15 +24,15 @@ template <>
 constexpr long double ROUNDING<Real113> = 0x1p-113L;
 static_assert(std::numeric_limits<long double>::digits >= 64);
 
-/// Roundings of the largest coordinate m in the length of a vector between two weighted points: corners
-/// relative to the origin are up to 2 sqrt(3) m long and carry one rounding, products with the weights and
-/// their sums three more, the weights' own sum two, at either end; the length adds four. 2 * 6 * 3.5 + 4
-/// * 3.5 < 64.
+/// Roundings of the largest coordinate m in the length of a vector between two weighted points.
+/// Corners relative to the origin are up to 2 sqrt(3) m long with one rounding, products with
+/// weights and their sums three more, the weights' own sum two, at either end; the length adds
+/// four. 2 * 6 * 3.5 + 4 * 3.5 < 64.
 constexpr long double ROUNDINGS_OF_LENGTH = 64.0L;
-/// The same of a corner's difference along a unit direction: one in the difference of two relative corners
-/// after one in each, four in product and sums, four in the direction's length and the division; 3.5 each.
+/// The same of a corner's difference along a unit direction: one in the difference of two relative
+/// corners after one in each, four in product and sums, four in length and division; 3.5 each.
 constexpr long double ROUNDINGS_ALONG = 64.0L;
-/// The type with 113 bits is rounded to a long double at the end.
+/// The 113-bit type is rounded to a long double at the end.
 constexpr long double LAST_ROUNDINGS = 4.0L;
 
 long double magnitude(const Triangle& a, const Triangle& b) {
@@ -48,7 +48,7 @@ WitnessVector<Real> weighted(const std::array<WitnessVector<Real>, 3>& t, const 
   return w[0] * t[0] + w[1] * t[1] + w[2] * t[2];
 }
 
-/// The gap between the triangles along a direction, at least 0; no direction bounds it from below falsely.
+/// A lower bound of the distance, at least 0: the triangles' gap along any direction.
 template <class Real>
 Real gap_along(const WitnessSearch<Real>& search, const WitnessVector<Real>& direction) {
   const Real length = root(dot(direction, direction));
@@ -93,7 +93,7 @@ Filtered::Triangle_3 filtered(const Triangle& t) {
   return {point(t[0]), point(t[1]), point(t[2])};
 }
 
-/// Beyond this range of the largest coordinate a product of three could overflow or vanish.
+/// Range of the largest coordinate in which no product of three overflows or vanishes.
 constexpr long double SMALLEST_FILTERED = 0x1p-250L;
 constexpr long double LARGEST_FILTERED = 0x1p+250L;
 
@@ -106,7 +106,7 @@ DistanceBracket distance_bracket(const Triangle& a, const Triangle& b) {
     return *result;
   }
   const long double distance = exact_distance(a, b);
-  // Rounded once, to a double.
+  // One rounding, to a double.
   const long double rounding = distance * std::numeric_limits<double>::epsilon();
   return {distance - rounding, distance + rounding, 0};
 }

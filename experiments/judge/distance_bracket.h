@@ -16,11 +16,10 @@ struct DistanceBracket {
 /// Widest bracket, relative to the pair's largest coordinate: a twentieth of a double's rounding.
 inline constexpr long double BRACKET_WIDTH = 2e-17L;
 
-/// The distance of two triangles to BRACKET_WIDTH of their largest coordinate, proved: a pair of
-/// feasible points bounds it from above, the gap between the triangles along a direction from below,
-/// both with their rounding. How points and direction were found does not matter, so no error of a
-/// search can make a bound false. Tried in 64 and in 113 bits; what stays open is answered by
-/// exact_distance. Shares nothing with the kernels.
+/// The proved distance of two triangles, to BRACKET_WIDTH of their largest coordinate. A pair of
+/// feasible points bounds it from above, the gap along a direction from below, both with their
+/// roundings. Any points and direction give true bounds, so no error of a search can make one
+/// false. 64 bits are tried first, then 113, then exact_distance. Shares nothing with the kernels.
 /// @pre finite coordinates, the largest between 2^-1000 and 2^1000
 DistanceBracket distance_bracket(const Triangle& a, const Triangle& b);
 

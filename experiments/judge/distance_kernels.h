@@ -12,16 +12,16 @@
 
 namespace lmdbench::testing {
 
-/// What a routine says of a pair.
+/// A routine's answer for a pair.
 struct DistanceAnswer {
   double distance = 0.0;
-  bool touches = false;  ///< Its own flag where it has one, else distance 0.
-  /// Its nearest points, where it promises them in every case. FCL's are arbitrary
-  /// in contact, CGAL gives none.
+  bool touches = false;  ///< Its own flag where it has one, else whether the distance is 0.
+  /// Its nearest points, where it promises them in every case. FCL's are arbitrary in contact, CGAL
+  /// gives none.
   std::optional<Segment> points;
 };
 
-/// A routine that is judged. The whole list is handed over, so that batched kernels fit.
+/// A judged routine. It receives the whole list, so that batched kernels fit.
 struct DistanceKernel {
   std::string name;
   void (*run)(std::span<const Triangle> a, std::span<const Triangle> b, std::span<DistanceAnswer> answers);
@@ -30,7 +30,7 @@ struct DistanceKernel {
 /// Ours one by one and in vectors, FCL's and CGAL's in double precision.
 std::vector<DistanceKernel> distance_kernels();
 
-/// CGAL's squared_distance over doubles, in its own translation unit so that its headers stay there.
+/// CGAL's squared_distance over doubles, in a translation unit that alone includes its headers.
 void cgal_distances(std::span<const Triangle> a, std::span<const Triangle> b,
                     std::span<DistanceAnswer> answers);
 

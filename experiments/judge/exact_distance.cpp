@@ -26,8 +26,8 @@ double exact_distance(const Triangle& a, const Triangle& b) {
 }
 
 double exact_distance(const Vec3& point, const Triangle& triangle) {
-  // As a triangle of three equal corners: the point-triangle overload needs a plane,
-  // which a flat triangle has not.
+  // The point is a triangle of three equal corners: CGAL's point-triangle overload needs a plane,
+  // which a flat triangle lacks.
   const Vec3& p = point;
   return exact_distance(Triangle{p, p, p}, triangle);
 }

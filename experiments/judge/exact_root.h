@@ -8,8 +8,8 @@
 
 namespace lmdbench::exact {
 
-/// Square root of a rational that is not negative. Scaled to near 1 first, because the square of a small distance may be
-/// a denormal.
+/// Square root of a rational that is not negative. It is scaled to near 1 first, because the square
+/// of a small distance may be a denormal.
 inline double rounded_root(const CGAL::Gmpq& squared) {
   if (squared == 0) return 0.0;
   int exponent = static_cast<int>(mpz_sizeinbase(squared.numerator().mpz(), 2)) -

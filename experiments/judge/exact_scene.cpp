@@ -24,7 +24,7 @@ using testing::FeatureBox;
 using testing::for_each_near;
 
 using Exactly = LmdCondition<CGAL::Gmpq>;
-/// Rounds upward while a protector lives; anything else that computes must wait.
+/// Rounds upward while a protector lives; all other arithmetic must wait.
 using Interval = CGAL::Interval_nt_advanced;
 using Roughly = LmdCondition<Interval>;
 
@@ -42,14 +42,14 @@ double coordinate_rounding(const Vec3& p, const Vec3& q) {
          std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
 }
 
-/// The triangles of a body that hold a point: more than those of the feature it lies on where the mesh
+/// The triangles of a body that hold a point. They are more than its feature's where the mesh
 /// touches itself, as triangles without area do.
 class TrianglesThroughPoint {
  public:
   explicit TrianglesThroughPoint(const WorldBody& body)
       : body_(body), boxes_(feature_boxes(body.surface(), body.vertices_W(), FeatureKind::FACE)) {}
 
-  /// Whether one of them has a point that is nearer to p + d, to first order.
+  /// Whether one of them has a point nearer to p + d, to first order.
   bool come_nearer(const Exactly::Point& p, const Exactly::Vector& d) const {
     const Vec3 place = rounded(p);
     const double slack = coordinate_rounding(place, place);
@@ -70,7 +70,7 @@ class TrianglesThroughPoint {
   std::vector<FeatureBox> boxes_;
 };
 
-/// Collects the exact LMDs of the moving and one fixed body.
+/// Collects the exact LMDs of the moving body and one fixed body.
 class Search {
  public:
   Search(const WorldBody& moving, const WorldBody& fixed, std::int32_t body, double cutoff,
@@ -98,7 +98,7 @@ class Search {
   }
 
  private:
-  /// False only where intervals prove that the pair is no LMD.
+  /// False only where interval arithmetic proves that the pair is no LMD.
   bool possible(const FeatureId& on_moving, const FeatureId& on_fixed) const {
     const Interval::Protector rounding_upward;
     try {
@@ -139,7 +139,7 @@ class Search {
   std::vector<ExactLmd>& result_;
 };
 
-/// Whether intervals prove that an axis separates the triangles: a normal or a cross product of edges.
+/// Whether intervals prove that a normal or a cross product of edges separates the triangles.
 bool surely_apart(const Triangle& a, const Triangle& b) {
   using Kernel = CGAL::Simple_cartesian<Interval>;
   using Vector = Kernel::Vector_3;

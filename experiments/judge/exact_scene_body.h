@@ -10,11 +10,11 @@
 
 namespace lmdbench::exact {
 
-/// Sine below which an outer side or the area of a triangle is left to rounding.
+/// Sine below which rounding decides an outer side or a triangle's area.
 inline constexpr double UNCERTAIN_SINE = 1e-9;
 
-/// One mesh of the scene with its vertices in the world as RigidTransform rounds them:
-/// from here on they are exact.
+/// One mesh of the scene with its vertices in the world as RigidTransform rounds them; from here on
+/// they are exact.
 class WorldBody {
  public:
   WorldBody(const Surface& surface, const RigidTransform& X_WS);
@@ -30,14 +30,14 @@ class WorldBody {
   }
   Triangle triangle(std::int32_t index) const;
 
-  /// Whether the feature has an outer side; those on a boundary and non-manifold ones have none.
+  /// Whether the feature has an outer side; boundary and non-manifold features have none.
   bool has_side(const FeatureId& feature) const;
-  /// Whether an incident triangle has no area or all but none: several of its features then share each point,
-  /// and which of them carries it is open.
+  /// Whether an incident triangle has (almost) no area: several of its features then share each
+  /// point, and any of them may carry it.
   bool on_flat_triangle(const FeatureId& feature) const;
-  /// Whether the direction leaves a vertex on the side of its pseudo-normal, the angle-weighted sum of face
-  /// normals: the one judgement in long double, because angles are not rational.
-  /// @param certain is made false where the outcome hangs on rounding
+  /// Whether the direction leaves a vertex on the side of its pseudo-normal, the angle-weighted sum
+  /// of face normals. Only this is judged in long double, because angles are not rational.
+  /// @param certain becomes false where rounding decides
   bool on_outer_side_of_vertex(std::int32_t vertex, const Vec3& direction_W, bool& certain) const;
 
  private:

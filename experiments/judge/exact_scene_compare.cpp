@@ -16,8 +16,8 @@ bool same_features(const Lmd& found, const ExactLmd& exact) {
          found.feature_fixed == exact.feature_fixed;
 }
 
-/// The plateau's own tolerance (lmd/plateau.h): equal distance vectors but for rounding and for the tilt of
-/// faces that still count as parallel, here also in one plane of contact.
+/// The tolerance of plateaus (lmd/plateau.h): distance vectors are equal up to rounding and the
+/// tilt of faces that count as parallel. Here they must also share one plane of contact.
 bool same_contact(const Lmd& found, const ExactLmd& exact) {
   constexpr double PLATEAU = 1e-9, PARALLEL = 2e-9;
   if (found.fixed_body != exact.fixed_body) return false;

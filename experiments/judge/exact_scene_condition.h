@@ -12,8 +12,8 @@
 
 namespace lmdbench::exact {
 
-/// What makes two features an LMD, in a number type: exact numbers decide it; intervals prove most pairs to
-/// be none at a hundredth of the cost and throw CGAL::Uncertain_conversion_exception where they cannot tell.
+/// The LMD condition of two features in a number type. Exact numbers decide it; intervals reject
+/// most pairs at 1 % of the cost and throw CGAL::Uncertain_conversion_exception if they cannot.
 template <typename Number>
 class LmdCondition {
  public:
@@ -27,8 +27,8 @@ class LmdCondition {
   LmdCondition(const WorldBody& moving, const WorldBody& fixed, double cutoff)
       : moving_(moving), fixed_(fixed), cutoff_(cutoff) {}
 
-  /// The critical pair of distance in both interiors, if there is one within the cutoff and not at distance 0
-  /// that meets the first-order condition. The outer side of vertices is not looked at.
+  /// The critical pair of points inside both features that meets the first-order condition, if its
+  /// distance is above 0 and within the cutoff. The outer side of vertices is not tested.
   std::optional<Pair> operator()(const FeatureId& on_moving, const FeatureId& on_fixed) const {
     std::optional<Pair> pair = critical(on_moving, on_fixed);
     if (!pair) return std::nullopt;
@@ -52,7 +52,7 @@ class LmdCondition {
     return critical(moving_, on_moving, fixed_, on_fixed);
   }
 
-  /// @pre the kind of the first is not above the second's, and they are not two faces or edge and face
+  /// @pre kinds ascend from a to b; neither face-face nor edge-face
   static std::optional<Pair> critical(const WorldBody& a, const FeatureId& on_a, const WorldBody& b,
                                       const FeatureId& on_b) {
     const auto ends = [](const WorldBody& body, std::int32_t edge) {
@@ -91,12 +91,12 @@ class LmdCondition {
     return Pair{e[0] + u * (s / whole), f[0] + v * (t / whole)};
   }
 
-  /// No corner of the incident triangles is nearer, and the outer side of faces and edges.
+  /// No corner of incident triangles is nearer, and d is on the outer side of faces and edges.
   static bool admits(const WorldBody& body, const FeatureId& feature, const Point& p, const Vector& d) {
     if (feature.kind != FeatureKind::FACE) {
       for (const std::int32_t triangle : body.surface().incident_triangles(feature))
         for (const std::int32_t corner : body.corners(triangle)) {
-          // A critical pair's d is perpendicular to the feature, so its own corners never are nearer.
+          // A critical pair's d is perpendicular to the feature: its own corners are never nearer.
           if (is_corner_of(body, feature, corner)) continue;
           if (d * (point(body.vertex(corner)) - p) > 0) return false;
         }
@@ -127,7 +127,7 @@ class LmdCondition {
 
   /// Sign of d . (n1 / |n1| + n2 / |n2|), by comparing squares instead of taking roots.
   static bool on_outer_side_of_edge(const WorldBody& body, std::int32_t edge, const Vector& d) {
-    Number positive = 0, negative = 0;  // squares of the terms of either sign, two terms at most
+    Number positive = 0, negative = 0;  // squared terms of either sign, at most two in all
     for (const std::int32_t triangle : body.surface().adjacency.edge_triangles[edge]) {
       const Vector n = normal(body, triangle);
       const Number squared_length = n.squared_length();

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <vector>
 
-/// Which features come near each other, by bounding boxes and one sorted axis: all that the exact judges take
-/// for granted, so it shares nothing with the searches that they judge.
+/// Features that are near each other, by bounding boxes and one sorted axis. All exact judges rely
+/// on it, so it shares nothing with the judged searches.
 namespace lmdbench::testing {
 
 struct FeatureBox {
@@ -44,11 +44,11 @@ inline std::vector<FeatureBox> feature_boxes(const Surface& surface, const std::
   return boxes;
 }
 
-/// Calls visit(index of a, index of b) for all pairs whose boxes are no farther apart than `reach`, and maybe
-/// for some that are.
+/// Calls visit(index of a, index of b) for all pairs of boxes within `reach`, and maybe for some
+/// beyond it.
 template <typename Visit>
 void for_each_near(const std::vector<FeatureBox>& a, std::vector<FeatureBox> b, double reach, Visit visit) {
-  // Box distances carry a few roundings; a wider reach costs nothing but needless visits.
+  // Box distances carry a few roundings; a larger reach only costs extra visits.
   constexpr double SLACK = 1e-12;
   double widest = 0.0, coordinates = 0.0;
   for (const FeatureBox& entry : b) {

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-/// lmdbench-judge flat [--poses N] [--seed S] [--kind K]...: judges `exhaustive` and `certified` on machine parts that
-/// lie flush on and in each other; a table on standard output, what is wrong on standard error. Exit code 1 where
-/// something is.
+/// lmdbench-judge flat [--poses N] [--seed S] [--kind K]...: judges `exhaustive` and `certified` on
+/// machine parts flush on and in each other. A table on standard output, errors on standard error.
+/// Exit code 1 where there is one.
 namespace lmdbench::exact {
 namespace {
 

@@ -12,11 +12,11 @@
 namespace lmdbench::exact {
 namespace {
 
-/// Shares of the size: what an LMD's distance may be known to, and where an area's centroid has to be.
+/// Relative to the size: tolerances of an LMD's distance, and of its place at an area's centroid.
 constexpr double TOLERANCE = 1e-9, CENTROID = 1e-9;
-/// A basin is left to tolerance when the climb out of it, or its distance from the cutoff, is within this factor of it.
+/// A basin whose climb or distance from the cutoff is within this factor of tolerance is undecided.
 constexpr double MARGIN = 16.0;
-/// Distances of one plateau are equal to this part of them: they are exact, but for one root.
+/// Distances of one plateau are equal to this part of them: exact, except for one root.
 constexpr double ROUNDING = 8.0 * std::numeric_limits<double>::epsilon();
 /// Sine below which an outer side is left to tolerance.
 constexpr double UNCERTAIN_SIDE = 1e-6;
@@ -97,8 +97,8 @@ FlatTruth::Claim FlatTruth::claim_of(const Basin& basin) const {
   return claim;
 }
 
-/// Whether a basin has one local minimum, be it a plateau. Where borders pass each other by 1e-7 the climb from one part of an
-/// overlap to the next is 1e-12: whether the parts are one LMD or two is left to tolerance.
+/// Whether a basin has one local minimum, maybe a plateau. Where borders cross by 1e-7, the climb
+/// between parts of an overlap is 1e-12: tolerance decides whether they are one LMD or two.
 bool FlatTruth::is_one_minimum(const Basin& basin) const {
   return std::ranges::none_of(small_climbs_, [&](const Basin& small) {
     return std::ranges::any_of(small.pairs, [&](std::size_t i) {
@@ -141,7 +141,7 @@ bool FlatTruth::is_local_minimum(const Lmd& lmd) const {
 }
 
 bool FlatTruth::is_level_place(const Lmd& lmd) const {
-  // With what the tolerance calls level, and the parts of that between which it climbs.
+  // First with all that the tolerance calls level, then its parts, with climbs between them.
   for (const double climb : {tolerance_, ROUNDING * lmd.distance}) {
     std::vector<bool> seen(pairs_->size(), false);
     for (std::size_t i = 0; i < pairs_->size(); ++i) {
@@ -168,7 +168,7 @@ FlatCounts FlatTruth::judge(const LmdSet& lmds, std::string& objections) const {
   };
   std::vector<std::size_t> held(places_.size(), 0);
   for (const Lmd& lmd : lmds) {
-    // A basin left by a small climb holds what is lower beyond it too: the one at the LMD's own distance.
+    // A basin with a small climb also holds lower points beyond it: take the LMD's own distance.
     const auto nearest_place = [&](auto&& fits) {
       std::size_t nearest = places_.size();
       const auto off = [&](std::size_t i) { return std::abs(places_[i].basin.least - lmd.distance); };
@@ -176,7 +176,7 @@ FlatCounts FlatTruth::judge(const LmdSet& lmds, std::string& objections) const {
         if ((nearest == places_.size() || off(i) < off(nearest)) && fits(places_[i])) nearest = i;
       return nearest;
     };
-    // A contact's area may be seen from a place that is not on it (the hole of a ring), so it is asked first.
+    // Asked first, as the centroid may be off the contact's own area (the hole of a ring).
     std::size_t place = nearest_place([&](const Place& p) { return at_centroid(p.area, lmd); });
     const bool centred = place < places_.size();
     if (!centred) place = nearest_place([&](const Place& p) { return holds(p.basin.pairs, lmd); });

@@ -13,23 +13,23 @@
 #include <string>
 #include <vector>
 
-/// Flat contact judged in exact arithmetic. It knows triangles, their vertices in the world and nothing else: no plane
-/// made of several triangles, no rule of the methods. What it asks follows from "no small step brings the points nearer":
-/// each basin of the distance that takes more than the tolerance to climb out of, and whose points see each other's outer
-/// sides, is one LMD; and each LMD is at the bottom of such a basin, or at a local minimum that has a way down that does
-/// not climb (a level recess), of which nothing is demanded.
+/// Flat contact judged in exact arithmetic, from triangles and their world vertices alone: no plane
+/// of several triangles, no rule of the methods. It tests "no small step brings the points nearer".
+/// One LMD is each basin of the distance that takes more than the tolerance to leave and whose
+/// points see each other's outer sides. Each LMD is at the bottom of such a basin, or at a local
+/// minimum with a way down that does not climb (a level recess), which may lack an LMD.
 namespace lmdbench::exact {
 
-/// Counts over scenes.
+/// Sums over scenes.
 struct FlatCounts {
   std::size_t poses = 0;
-  std::size_t touching_poses = 0;   ///< Some triangles share a point: not judged.
-  std::size_t tolerance_poses = 0;  ///< Something in it is left to tolerance.
+  std::size_t touching_poses = 0;   ///< Not judged, because some triangles share a point.
+  std::size_t tolerance_poses = 0;  ///< Some decision is left to tolerance.
   std::size_t faulty_poses = 0;
-  std::size_t basins = 0;         ///< Demanded.
-  std::size_t areas = 0;          ///< Of these, such whose minimisers have an area: judged by its centroid.
+  std::size_t basins = 0;         ///< Those that must have an LMD.
+  std::size_t areas = 0;          ///< Of these, plateaus, judged by their centroids.
   std::size_t right = 0;          ///< Basins with exactly one LMD, at the right place.
-  std::size_t with_way_down = 0;  ///< LMDs at local minima that are none of these basins'.
+  std::size_t with_way_down = 0;  ///< LMDs at other local minima than of these basins.
   std::size_t tolerated = 0;      ///< Basins and LMDs left to tolerance.
   std::size_t missed = 0, doubled = 0, untrue = 0, misplaced = 0;
 
@@ -40,15 +40,15 @@ struct FlatCounts {
 /// One body pair in one pose.
 class FlatTruth {
  public:
-  /// @param cutoff within which LMDs are asked for [m]
+  /// @param cutoff of the LMDs [m]
   FlatTruth(const Surface& moving, const Surface& fixed, const Pose& X_WM, double cutoff);
 
-  /// Some triangles share a point: the distance is 0 there and has no direction.
+  /// Some triangles share a point: there the distance is 0 and has no direction.
   bool touching() const { return touching_; }
   std::size_t demanded() const;
 
   /// Judges the LMDs of the pair.
-  /// @param objections receives what is wrong, a line each
+  /// @param objections receives the errors, one a line
   FlatCounts judge(const LmdSet& lmds, std::string& objections) const;
 
  private:
@@ -69,7 +69,7 @@ class FlatTruth {
   double size_, tolerance_, cutoff_;
   std::unique_ptr<CellPairs> pairs_;
   bool touching_ = false;
-  std::vector<Basin> small_climbs_;  ///< Of less than the tolerance, and more than rounding.
+  std::vector<Basin> small_climbs_;  ///< Climbs below the tolerance, above rounding.
   std::vector<Place> places_;
 };
 

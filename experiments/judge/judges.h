@@ -9,16 +9,16 @@ namespace CLI {
 class App;
 }
 
-/// One file a subcommand of lmdbench-judge.
+/// Each subcommand of lmdbench-judge has one file.
 namespace lmdbench::exact {
 
-/// What the chosen subcommand does once the command line is read; it returns the exit code.
+/// The work of the chosen subcommand after the command line is read; returns the exit code.
 using Run = std::function<int()>;
 
-/// The methods that promise the set of the definition, which flat and rest judge.
+/// The methods that promise the set of the definition; flat and rest judge them.
 inline constexpr std::array JUDGED_METHODS = {"exhaustive", "certified"};
 
-/// Each adds its subcommand to `app`, which sets `chosen` when it is named; `chosen` must outlive the parsing.
+/// Each adds its subcommand to `app`; naming it sets `chosen`, which must outlive the parsing.
 void add_truth(CLI::App& app, Run& chosen);
 void add_ledger(CLI::App& app, Run& chosen);
 void add_flat(CLI::App& app, Run& chosen);

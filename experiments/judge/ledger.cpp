@@ -21,8 +21,8 @@ namespace lmdbench::exact {
 namespace {
 
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
-/// Extended precision may sort out pairs that are farther than the nearest by more than this; the rest goes
-/// to exact arithmetic. Far above its error, relative to the distance.
+/// Pairs farther than the nearest by more than this, relative to the distance, are sorted out in
+/// extended precision, whose error is far smaller; exact arithmetic takes the rest.
 constexpr double SORTING_MARGIN = 1e-6;
 
 constexpr const char* FCL = "fcl";
@@ -33,7 +33,7 @@ struct NearestExact {
   std::int32_t fixed_body = -1, moving = -1, fixed = -1;
 };
 
-/// The scene as the judge sees it.
+/// The scene with what the arbitration needs.
 class Court {
  public:
   explicit Court(const PreparedRun& run) : run_(run) {
@@ -67,8 +67,8 @@ class Court {
     return pair;
   }
 
-  /// Minimum distance: the exact distance of some pair bounds it from above; all pairs whose boxes come
-  /// nearer than that are looked at in extended precision, and the nearest of them exactly.
+  /// Minimum distance. The exact distance of some pair bounds it from above; all pairs whose boxes
+  /// are nearer are computed in extended precision, and the nearest of them exactly.
   NearestExact truth(const Pose& X_WM) const {
     const RigidTransform transform(X_WM);
     NearestExact nearest = bound(X_WM);
@@ -92,7 +92,7 @@ class Court {
   }
 
  private:
-  /// Any pair is a bound; that of the program's own search is a near one.
+  /// Any pair is a bound; the nearest pair of the program's own search is a tight one.
   NearestExact bound(const Pose& X_WM) const {
     const RigidTransform transform(X_WM);
     NearestExact best;
@@ -115,7 +115,7 @@ class Court {
   std::optional<FclCrosscheck> scaled_, unscaled_;
 };
 
-/// Whether two answers differ: one sees contact and the other does not, or by more than the tolerance.
+/// Whether answers differ by more than the tolerance, or just one of them is contact.
 bool differ(double a, double b, double tolerance) {
   if ((a == 0.0) != (b == 0.0)) return true;
   if (a == b) return false;

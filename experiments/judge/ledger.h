@@ -10,32 +10,31 @@
 #include <string>
 #include <vector>
 
-/// The disagreement ledger: where those who answered a cross-checked frame's minimum distance differ, exact
-/// arithmetic says who was wrong and by how much.
+/// The disagreement ledger: for a cross-checked frame whose answers for the minimum distance
+/// differ, exact arithmetic tells which one is wrong and by how much.
 namespace lmdbench::exact {
 
-/// One opinion on a frame.
+/// One answer for a frame.
 struct Opinion {
-  std::string who;        ///< A method's label, "lmdbench" (exact-form nearest pair), "fcl", "fcl-unscaled".
-  double distance = 0.0;  ///< metres; infinite where a method found no pair
-  double relative_error =
-      0.0;  ///< |distance - truth| / truth; infinite for a contact that is none or a missed pair
+  std::string who;              ///< Method, "lmdbench" (exact form), "fcl" or "fcl-unscaled".
+  double distance = 0.0;        ///< metres; infinite where a method found no pair
+  double relative_error = 0.0;  ///< |distance - truth| / truth; infinite if false or missed
   bool wrong = false;
 };
 
-/// A triangle pair of a disputed frame, as it pastes into a test.
+/// A triangle pair of a disputed frame, which pastes into a test.
 struct JudgedPair {
-  std::string why;  ///< "nearest", or who named it: "fcl", "fcl-unscaled"
+  std::string why;  ///< "nearest", or whose pair it is: "fcl", "fcl-unscaled"
   std::int32_t fixed_body = 0;
   std::int32_t triangle_moving = -1, triangle_fixed = -1;
   Triangle moving_M;          ///< In the moving mesh's frame [m].
   Triangle fixed_W;           ///< In the world [m].
   double exact = 0.0;         ///< Exact distance, rounded once [m].
-  double fcl = 0.0;           ///< What FCL's kernel answers within the probe's query, scaled as there [m].
+  double fcl = 0.0;           ///< By FCL's kernel, scaled as in the probe [m].
   double fcl_unscaled = 0.0;  ///< The same with the meshes as they are.
 };
 
-/// A frame whose opinions differ.
+/// A frame whose answers differ.
 struct LedgerRow {
   std::int64_t frame = 0;
   Pose pose;           ///< X_WM
@@ -45,28 +44,27 @@ struct LedgerRow {
   std::vector<Opinion> opinions;
 };
 
-/// What one party answered over all arbitrated frames.
+/// All arbitrated frames of a result.
 struct Ledger {
   std::string experiment;
-  std::int64_t frames = 0;  ///< Cross-checked.
-  std::int64_t disagreements =
-      0;                        ///< Rows of which fcl, lmdbench and the methods make up; all are arbitrated.
-  double tolerance = 0.0;       ///< Relative.
-  double scale = 1.0;           ///< Of the meshes as the probe hands them to FCL.
-  std::vector<LedgerRow> rows;  ///< Frames in which any two differ, fcl-unscaled among them.
+  std::int64_t frames = 0;         ///< Cross-checked frames.
+  std::int64_t disagreements = 0;  ///< Rows that fcl, lmdbench or methods cause.
+  double tolerance = 0.0;          ///< Relative.
+  double scale = 1.0;              ///< Factor of the meshes in the probe's calls of FCL.
+  std::vector<LedgerRow> rows;     ///< Frames in which any two differ, "fcl-unscaled" included.
 };
 
-/// Reads a result with an FCL cross-check, loads its scene again and arbitrates every
-/// frame in which opinions differ.
-/// @param experiment_file  the experiment's file: relative names in the result are relative to its folder
+/// Reads a result with an FCL cross-check, loads its scene, arbitrates frames with differing
+/// answers.
+/// @param experiment_file  its folder is the base of relative names in the result
 /// @throws InputError when the result has no cross-check or does not fit the meshes and path found
 Ledger arbitrate(const std::filesystem::path& result, const std::filesystem::path& experiment_file);
 
 /// The experiment file that a result's command line names, or an empty path.
 std::filesystem::path experiment_file_of(const std::filesystem::path& result);
 
-/// A table with a row a run: who was wrong in how many frames and by how much; then the worst row of each
-/// party and kind of error, as a test to paste.
+/// A table with a row a run: whose answers were wrong in how many frames and by how much; then the
+/// worst row of each party and kind of error, which pastes into a test.
 std::string ledger_markdown(const std::vector<Ledger>& ledgers);
 
 /// All rows; numbers have 17 digits and read back to the same bits.

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-/// lmdbench-judge ledger RESULT.h5... [--experiment FILE] [--out NAME]: the disagreement ledger of results with an FCL
-/// cross-check; Markdown on standard output, with --out also NAME.md and, with all rows, NAME.json.
+/// lmdbench-judge ledger RESULT.h5... [--experiment FILE] [--out NAME]: the disagreement ledger of
+/// cross-checked results. Markdown on standard output; --out adds NAME.md and NAME.json (all rows).
 namespace lmdbench::exact {
 namespace {
 

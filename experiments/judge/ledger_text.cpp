@@ -25,7 +25,7 @@ std::string paste(const Triangle& t) {
                      paste(t[1]), paste(t[2]));
 }
 
-/// The kinds of error, as the table and the examples call them.
+/// The kinds of error, as table and examples call them.
 std::string kind_of(const Opinion& opinion, double truth) {
   if (std::isinf(opinion.distance)) return "finds no pair";
   if (truth == 0.0) return "sees no contact where there is";
@@ -40,7 +40,7 @@ std::string verdict(const Opinion& opinion, double truth) {
   return measurable ? fmt::format("{} by {:.3g} of the distance", kind, opinion.relative_error) : kind;
 }
 
-/// "bunny-hard" as a part of a test's name.
+/// "bunny-hard" as part of a test's name.
 std::string camel_case(const std::string& name) {
   std::string result;
   bool upper = true;
@@ -83,11 +83,11 @@ std::string row_text(const Ledger& ledger, const LedgerRow& row) {
 
 struct Tally {
   int wrong = 0;
-  double worst = 0.0;               ///< relative error of the distances that are neither 0 nor infinite
-  std::map<std::string, int> rest;  ///< the kinds without such an error
+  double worst = 0.0;               ///< relative error of distances except 0 and infinity
+  std::map<std::string, int> rest;  ///< kinds without such an error
 };
 
-/// A table's cell: how often wrong, and how.
+/// A table's cell: number and kinds of errors.
 std::string cell(const Tally& tally) {
   if (tally.wrong == 0) return "0";
   std::string text = fmt::format("{}", tally.wrong);
@@ -121,7 +121,7 @@ nlohmann::ordered_json json_of(const Triangle& t) {
 }  // namespace
 
 std::string ledger_markdown(const std::vector<Ledger>& ledgers) {
-  // All parties of all runs, in the order in which they come.
+  // All parties of all runs, in the order of their first appearance.
   std::vector<std::string> parties;
   std::map<std::pair<std::string, std::string>, Example> examples;
   std::vector<std::map<std::string, Tally>> tallies(ledgers.size());

@@ -4,8 +4,8 @@
 #include <judge/judges.h>
 #include <support/program.h>
 
-/// lmdbench-judge: who is right, in exact arithmetic. A program of its own, because CGAL's kernels are (L)GPL and
-/// nothing else links them.
+/// lmdbench-judge: exact arithmetic decides who is right. It is a separate program, because CGAL's
+/// kernels are (L)GPL and nothing else links them.
 int main(int argc, char** argv) {
   using namespace lmdbench;
   CLI::App app("Judges answers in exact arithmetic", "lmdbench-judge");

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-/// lmdbench-judge rest [--poses N] [--seed S] [--fit NAME]... [--out DIR]: judges `exhaustive` and `certified` where parts rest in each
-/// other; a table on standard output, what is wrong on standard error, the first scene at fault as files. Exit code 1 where something is.
+/// lmdbench-judge rest [--poses N] [--seed S] [--fit NAME]... [--out DIR]: judges `exhaustive` and
+/// `certified` on parts at rest. Table and errors are printed. Exit code 1 where there is one.
 namespace lmdbench::exact {
 namespace {
 
@@ -30,11 +30,11 @@ struct RestChoice {
   std::string out;
 };
 
-/// A pose is of the class of its least gap, over its size.
+/// Upper limits of the classes of poses: the pose's least gap over its size.
 constexpr std::array<double, 4> CLASSES = {1e-14, 2e-12, 2e-9, std::numeric_limits<double>::infinity()};
 constexpr std::array CLASS_NAMES = {"touching", "rounding", "tolerance", "apart"};
 
-/// Of one fit and method.
+/// Results of one fit and method.
 struct RestCounts {
   std::array<std::size_t, CLASSES.size()> poses{}, faulty{};
   std::array<std::size_t, REST_FAULT_NAMES.size()> faults{};

@@ -13,24 +13,24 @@
 namespace lmdbench::exact {
 namespace {
 
-/// Of the largest coordinate: what numbers of an answer may be off.
+/// Accepted error of numbers in an answer, relative to the largest coordinate.
 constexpr double ROUNDING_SHARE = 128.0 * std::numeric_limits<double>::epsilon();
-/// Sines: how far planes of meshes in double and in single precision are from where they were drawn.
+/// Sines: tilt of planes from where they were drawn, for meshes in double and in single precision.
 constexpr double TILT = 1e-7, TILT_OF_FLOATS = 1e-4;
-/// Planar tolerances that a mesh which was put back into its planes may be off them by.
+/// Distance of vertices from restored planes, in planar tolerances.
 constexpr double TOLERANCES_OF_FLOATS = 8.0;
-/// A foot is on its feature to so many tolerances: borders that lean, and planes of a few roundings each.
+/// A point may be off its feature by so many tolerances: borders lean, planes are rounded.
 constexpr double ON_FEATURE = 8.0;
-/// Of two features whose border a point is near to, in shares of the coordinates, either may be named (DEFINITION.md).
+/// Nearer to a border, over coordinates, either feature may be named (DEFINITION.md).
 constexpr double NAMING = 2e-9;
-/// A distance down to this many tolerances may be one of intersecting triangles.
+/// Distances up to this many tolerances may belong to intersecting triangles.
 constexpr double TOUCHING = 2.0;
-/// Two conditions that hold to rounding each hold together at directions up to this many times as far off.
+/// Two conditions, each true up to rounding, hold together in directions up to so much farther off.
 constexpr double BOTH_CONES = 4.0;
 
 struct WorldTriangle {
   Triangle corners;
-  Eigen::AlignedBox3d box_D;  ///< In the frame of the design, where triangles lie along the axes.
+  Eigen::AlignedBox3d box_D;  ///< In the design's frame, where triangles are parallel to the axes.
 };
 
 std::vector<WorldTriangle> world_triangles(const Surface& surface, const RigidTransform& X_WS,
@@ -44,7 +44,7 @@ std::vector<WorldTriangle> world_triangles(const Surface& surface, const RigidTr
   return result;
 }
 
-/// A feature with its ends as a triangle, corners twice where it has fewer.
+/// The corners of a feature as a triangle; edges and vertices repeat their last one.
 Triangle corners_of(const Surface& surface, const FeatureId& feature, const RigidTransform& X_WS) {
   const FeatureCorners corners(surface, feature);
   Triangle result;
@@ -90,7 +90,7 @@ RestTruth::RestTruth(const parts::RestScene& scene)
   for (const Vec3& p : fixed.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   rounding_ = ROUNDING_SHARE * largest;
   tolerance_ = rounding_ + TOLERANCES_OF_FLOATS * (moving.planar_tolerance + fixed.planar_tolerance);
-  // A float mesh whose planes were left as they are says nothing of it.
+  // A float mesh whose planes were not restored has no planar tolerance.
   if (scene.single_precision)
     tolerance_ = std::max(tolerance_, TOLERANCES_OF_FLOATS * std::numeric_limits<float>::epsilon() * largest);
   tilt_ = scene.single_precision ? TILT_OF_FLOATS : TILT;
@@ -117,7 +117,7 @@ bool RestTruth::is_true(const Lmd& lmd, std::string& why) const {
   const Vec3 d = lmd.point_fixed - lmd.point_moving;
   if (!(std::abs(d.norm() - lmd.distance) <= rounding_)) why += " points are at another distance;";
   if (lmd.intersecting) {
-    // The centroid of what triangles share, which may lie in a hole of it.
+    // It is the centroid of the shared points, which may lie in a hole of them.
     if (lmd.distance != 0.0) why += " intersecting at a distance;";
     return why.empty();
   }
@@ -152,7 +152,7 @@ bool RestTruth::is_at(const parts::RestPlace& place, const Lmd& lmd) const {
   const double reach = TOUCHING * (tolerance_ + place.gap);
   for (const Vec3& p : {lmd.point_moving, lmd.point_fixed})
     if (place.box.exteriorDistance(X_DW_.point(p)) > reach) return false;
-  // Two points that are near each other know their direction the worse.
+  // The nearer two points are, the less exact is their direction.
   const bool of_planes = place.dimension == 2 && lmd.feature_moving.kind == FeatureKind::FACE &&
                          lmd.feature_fixed.kind == FeatureKind::FACE;
   const double known = of_planes ? 2.0 * tilt_ : 2.0 * tilt_ + BOTH_CONES * tolerance_ / lmd.distance;
@@ -171,17 +171,17 @@ RestVerdict RestTruth::judge(const LmdSet& lmds) const {
   if (!(least >= nearest_low_ - tolerance_ && least <= nearest_high_ + tolerance_))
     object(RestFault::NEAREST, fmt::format("{:.6g} where the meshes are {:.6g} apart{}", least, nearest_high_,
                                            intersecting_ ? ", intersecting" : ""));
-  // Of intersecting triangles the definition says that they are contacts, not how many.
+  // For intersecting triangles the definition demands contacts, but no number of them.
   const auto touches = [&](double distance) { return intersecting_ && distance <= TOUCHING * tolerance_; };
-  // Meshes in single precision have gaps below what they are known to, of which nothing is known.
+  // Single-precision meshes: gaps below the tolerance of both meshes prove nothing.
   const auto is_open = [&](const parts::RestPlace& place) {
     return touches(place.gap) || (scene_.single_precision && place.gap <= TOUCHING * tolerance_);
   };
-  // Where edges or corners touch to rounding the faces beside them may have an LMD each (DEFINITION.md).
+  // If edges or corners touch up to rounding, adjacent faces may have LMDs each (DEFINITION.md).
   const auto is_loose = [&](const parts::RestPlace& place) {
     return place.dimension < 2 && place.gap <= BOTH_CONES * tolerance_;
   };
-  // An LMD next to touch, whose direction is not known, may be at several places: it doubles none.
+  // An LMD almost at touch has no known direction and may be at several places: it doubles none.
   std::vector<std::size_t> held(scene_.places.size(), 0), alone = held;
   for (const Lmd& lmd : lmds) {
     std::string why;

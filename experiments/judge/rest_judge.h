@@ -10,36 +10,36 @@
 #include <cstddef>
 #include <string>
 
-/// Truth where parts rest (support/parts/rest_fits.h). Judged by proved bounds of the distance of every two triangles at the pose as it is,
-/// by what is near each other by construction, and by what an LMD says of itself. Shares no code with src/lmdbench/lmd.
+/// Truth for parts at rest (support/parts/rest_fits.h) from proved bounds of triangle distances,
+/// places known by construction, and each LMD's own numbers. Shares no code with src/lmdbench/lmd.
 namespace lmdbench::exact {
 
-/// What may be wrong with an answer.
+/// Kinds of wrong answers.
 enum class RestFault : std::uint8_t {
   NEAREST,     ///< The least distance of the set is not that of the meshes.
   MISSING,     ///< A place has no LMD.
-  DOUBLED,     ///< A place has several.
-  UNEXPECTED,  ///< An LMD where nothing is near, at a distance or in a direction of nothing there.
-  UNTRUE       ///< Points off the features named, a distance or direction that is not theirs.
+  DOUBLED,     ///< A place has several LMDs.
+  UNEXPECTED,  ///< An LMD where no place is, or at another distance or in another direction.
+  UNTRUE       ///< Points off the named features, or a distance or direction that is not theirs.
 };
 inline constexpr std::array REST_FAULT_NAMES = {"nearest", "missing", "doubled", "unexpected", "untrue"};
 
 struct RestVerdict {
   std::array<std::size_t, REST_FAULT_NAMES.size()> faults{};
-  std::string objections;  ///< A line each.
+  std::string objections;  ///< One per line.
 
   bool is_faulty() const { return !objections.empty(); }
 };
 
-/// One scene.
+/// The truth of one scene.
 class RestTruth {
  public:
   explicit RestTruth(const parts::RestScene& scene);
 
   /// Some triangles share a point, by exact predicates.
   bool intersecting() const { return intersecting_; }
-  /// Width within which numbers of a double answer are accepted: 128 epsilon of the largest coordinate, and for meshes in single
-  /// precision what both are known to.
+  /// Accepted error of numbers in a double answer [m]: 128 epsilon of the largest coordinate; for
+  /// float meshes also the tolerance of their planes.
   double tolerance() const { return tolerance_; }
 
   RestVerdict judge(const LmdSet& lmds) const;

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-/// lmdbench-judge truth EXPERIMENT.json... [--frames N] [--out FILE.md]: judges the ground truth, and `certified` with
-/// it, in exact arithmetic; a table on standard output, what is wrong on standard error. Exit code 1 where something
-/// is.
+/// lmdbench-judge truth EXPERIMENT.json... [--frames N] [--out FILE.md]: judges the truth, and
+/// `certified` with it, in exact arithmetic. A table on standard output, errors on standard error.
+/// Exit code 1 where there is one.
 namespace lmdbench::exact {
 namespace {
 

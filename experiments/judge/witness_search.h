@@ -9,7 +9,7 @@
 
 namespace lmdbench::testing {
 
-/// Square root of any precision: the long double's, and one step of Newton.
+/// Square root in any precision: that of long double, and one Newton step.
 template <class Real>
 Real root(Real x) {
   const Real start = std::sqrt(static_cast<long double>(x));
@@ -35,18 +35,18 @@ struct WitnessVector {
   }
 };
 
-/// A pair of points as weights of the corners, none negative, and the directions in which the triangles may
-/// be apart by its distance.
+/// A pair of points as weights of the corners, none negative, and directions in which the triangles
+/// may be apart by the pair's distance.
 template <class Real>
 struct Witness {
   std::array<Real, 3> on_a{1, 0, 0}, on_b{1, 0, 0};
-  WitnessVector<Real> normal;  ///< across the two features; zero where only the pair itself gives a direction
-  Real squared_distance = -1;  ///< as the search sees it; negative for none
+  WitnessVector<Real> normal;  ///< across both features; zero if only the pair gives it
+  Real squared_distance = -1;  ///< by the search; negative for none
 };
 
-/// Looks for the nearest points of two triangles: ends and insides of edge pairs, corners
-/// over faces, and edges through faces. Textbook formulas without any tolerance: whoever uses
-/// the outcome bounds it by itself.
+/// Searches the nearest points of two triangles: ends and insides of edge pairs, corners over
+/// faces, and edges through faces. Textbook formulas without any tolerance: callers must bound the
+/// error themselves.
 template <class Real>
 class WitnessSearch {
  public:
@@ -128,7 +128,7 @@ class WitnessSearch {
     best_ = {on_edge(i, s / squared_n), on_edge(j, t / squared_n), n, squared_distance};
   }
 
-  /// Corners of `t` over the face, and edges of `t` through it; `swap` says that t is the second triangle.
+  /// Corners of `t` over the face, edges of `t` through it; `swap`: t is the second triangle.
   void over_face(const Corners& t, const Corners& face, bool swap) {
     const Vector e1 = face[1] - face[0], e2 = face[2] - face[0];
     const Vector n = cross(e1, e2);
@@ -150,8 +150,8 @@ class WitnessSearch {
       const Real part = height[k] / (height[k] - height[l]);
       std::array<Real, 3> meeting;
       for (int i = 1; i < 3; ++i) meeting[i] = weights[k][i] + part * (weights[l][i] - weights[k][i]);
-      // From the rounded two: weights of far corners are large, and the sum of
-      // three roundings would not be 1.
+      // From the two rounded ones: weights of far corners are large, so the sum of three roundings
+      // would not be 1.
       meeting[0] = 1 - meeting[1] - meeting[2];
       keep_if_inside(meeting, on_edge(k, part), n, 0, swap);
     }

@@ -28,23 +28,23 @@ def arc(x, z, radius, first, last, steps):
 PIN = [(1.3, 0.3), (2.2, 1.2), *arc(2.6, 4.8, 1.0, -20.0, 40.0, 8), *arc(3.5, 8.3, 1.6, 250.0, 110.0, 10), (4.3, 11.3), (5.0, 12.2),
        (4.4, 13.2), (2.6, 13.8), (2.2, 15.0), (2.2, 20.0), (1.4, 20.8)]
 PIN_TOP, PIN_SIDES = 21.0, 24
-# Of the right arm from its tip down to the middle of the floor: inner and outer points (x, z). The pin's tip stands on z = 0.
+# The right arm from tip to floor: inner and outer points (x, z). The pin's tip is at z = 0.
 INNER = [(4.6, 10.9), *arc(3.65, 8.3, 1.2, 110.0, 250.0, 10), (4.8, 5.6), (4.8, 3.5), (4.8, 1.8), (4.6, 0.5), (4.0, 0.0), (2.0, 0.0), (0.0, 0.0)]
 OUTER = [(6.1, 10.9), *((6.4, 9.5 - 0.24 * i) for i in range(11)), (6.4, 5.6), (6.4, 3.5), (6.4, 1.8), (6.5, -0.2), (6.2, -1.6),
          (3.0, -2.0), (0.0, -2.0)]
 CLIP = list(zip(INNER, OUTER))
-NOSE = slice(0, 13)  # what of the inner side the pin can meet
-HALF_WIDTH, ROOT, ARM_MIDDLE = 4.0, 1.0, 5.6  # of the clip along y; height from which an arm bends; its middle fibre [mm]
+NOSE = slice(0, 13)  # inner points that the pin can meet
+HALF_WIDTH, ROOT, ARM_MIDDLE = 4.0, 1.0, 5.6  # half width along y, bend's root, middle fibre [mm]
 TOP, CROWN = 10.9, 8.3
 
 ARM = 1.0  # stiffness of an arm at the crown of its nose [N/mm]
 CUTOFF, SATURATION, LARGEST = 1.0, 0.1, 2.0  # of the experiment's force [mm, mm, N]
 MASS, DAMPING, STIFFNESS = 0.5, 0.02, 1.0  # the experiment's hand [kg, N s/mm, N/mm]
 
-DURATION, INTERVAL = 1.6, 0.04  # of the run, and from shape to shape [s]
-LEAST_BEND = 0.05  # what the arms move by less than this [mm] makes no new shape
+DURATION, INTERVAL = 1.6, 0.04  # of the run, and between shapes [s]
+LEAST_BEND = 0.05  # a smaller motion of the arms [mm] makes no new shape
 BELT_SPEED, BELT_START = 40.0, -26.0  # along x [mm/s, mm]
-MAGAZINE = (-5.4, 32.0)  # place of the pin at the begin, in the lattice of the experiment's magazine [mm]
+MAGAZINE = (-5.4, 32.0)  # first place of the pin in the magazine's lattice [mm]
 
 
 def smooth(time, begin, end):
@@ -108,7 +108,7 @@ def balanced(height):
     low, high = 0.0, 2.0
     for _ in range(24):
         middle = 0.5 * (low + high)
-        outside = gap(height, middle)[1][0] > 0.0  # the pin has not gone through the arm
+        outside = gap(height, middle)[1][0] > 0.0  # the pin has not passed through the arm
         low, high = (low, middle) if outside and push(height, middle)[0] < ARM * middle else (middle, high)
     return high
 
@@ -203,7 +203,7 @@ def main():
         shapes.pop()
     (folder / "clip.off").write_text(off(clip(0.0), clip_triangles()))
     (folder / "pin.off").write_text(off(*pin()))
-    # Turned by an angle that makes no edge of the pin parallel to one of the clip or of another pin.
+    # With this turn no edge of the pin is parallel to one of the clip or of another pin.
     (folder / "pin.tum").write_text(tum(0.02, meant, 7.0))
     (folder / "belt.tum").write_text(tum(DURATION, lambda time: (belt(time), 0.0, 0.0), 0.0))
     print(shapes)

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Incremental potential contact. Its set: all vertex-triangle and edge-edge pairs nearer than the cutoff c, each at its exact distance (Li
-// et al. 2020, section 4). Its force: minus the gradient of the sum of b(d) = -(1 - d/c)^2 ln(d/c), of edges times the mollifier that takes
-// nearly parallel ones out. With "weights" "area" (Li et al. 2023): each pair times a third of the area about its vertex or edge, and what
-// triangles share is subtracted again (the improved maximum: triangles - edges + vertices about a vertex, edges - (degree - 1) vertices
-// about an edge), so that a finer mesh has no larger force. Decisions, ours: pairs whose nearest points lie on lower features are one
-// contact of these, as ipc-toolkit merges them, and count in the force as often as they are met; b is of d, not of its square; newtons are
-// those of b times c, and of the areas over c^2; two edges share their weight; pairs at distance 0, which the barrier never lets come about,
-// push nobody; the broad phase is made anew for each pose.
+// Incremental potential contact (Li et al. 2020, section 4). Set: vertex-triangle and edge-edge
+// pairs nearer than the cutoff c, at exact distances. Force: minus the gradient of the sum of b(d)
+// = -(1 - d/c)^2 ln(d/c), with a mollifier for nearly parallel edges. "weights" "area" (Li et al.
+// 2023): times a third of the area about a vertex or edge, less what triangles share (improved
+// maximum: triangles - edges + vertices about a vertex, edges - (degree - 1) vertices about an
+// edge): finer meshes push no more. Our decisions: pairs on the same lower features are one
+// contact, as in ipc-toolkit, with as many forces; b is of d, not its square; newtons are b's times
+// c, areas over c^2; two edges share a weight; distance 0, excluded by the barrier, has no force.
 #include "near_pairs.h"
 #include "plugin.hpp"
 #include <nlohmann/json.hpp>
@@ -87,7 +87,7 @@ class Barrier {
     push(Point{p[0], p[1], p[2]}, Point{q[0], q[1], q[2]}, weight);
   }
 
-  /// With the mollifier of Li et al. 2020, equation 24, which turns A where edges are nearly parallel.
+  /// Li et al. 2020, equation 24: the mollifier of nearly parallel edges, which also turns A.
   void push_edges(const Edges::Edge& ea, const Edges::Edge& eb, const Found& pair, double weight) {
     const Point along_a = pairs_->point_a(ea.to) - pairs_->point_a(ea.from),
                 along_b = pairs_->point_b(eb.to) - pairs_->point_b(eb.from), both = cross(along_a, along_b);

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-/// What rivals share: vectors, forces, meshes in double precision, closest points (Ericson, Real-Time Collision Detection, 5.1).
+/// Shared, in doubles: meshes, closest points (Ericson, Real-Time Collision Detection, 5.1).
 namespace rivals {
 
 using Point = std::array<double, 3>;
@@ -74,7 +74,7 @@ struct Transform {
 struct Mesh {
   std::vector<Point> vertices;
   std::vector<std::array<std::int32_t, 3>> triangles;
-  /// A triangle that has the vertex as a corner, and which; -1 for a vertex of no triangle.
+  /// For each vertex a triangle and its corner there; -1 for a vertex of no triangle.
   std::vector<std::int32_t> triangle_of, corner_of;
   double diagonal = 0.0;
 
@@ -125,7 +125,7 @@ inline Point closest_on_triangle(const Point& p, const Point& a, const Point& b,
   return a + (vb * scale) * ab + (vc * scale) * ac;
 }
 
-/// Of the segments p1 q1 and p2 q2.
+/// Closest points of the segments p1 q1 and p2 q2.
 inline void closest_of_segments(const Point& p1, const Point& q1, const Point& p2, const Point& q2,
                                 Point& on_1, Point& on_2) {
   const Point d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
@@ -150,7 +150,7 @@ inline void closest_of_segments(const Point& p1, const Point& q1, const Point& p
 
 using Corners = std::array<Point, 3>;
 
-/// Of two triangles that do not intersect.
+/// Closest points of two triangles that do not intersect.
 inline void closest_of_triangles(const Corners& a, const Corners& b, Point& on_a, Point& on_b) {
   double best = INFINITY;
   const auto offer = [&](const Point& p, const Point& q) {
@@ -178,7 +178,7 @@ inline Found found(const Point& a, const Point& b, std::int32_t triangle_a, std:
   return {distance(a, b), {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}, triangle_a, triangle_b, part_a, part_b}};
 }
 
-/// Nearest first; an order that no thread and no hash decides.
+/// Nearest first; the order does not depend on threads or hashes.
 inline void hand_over(std::vector<Found>& all, std::vector<lmdbench_contact>& contacts) {
   std::sort(all.begin(), all.end(), [](const Found& x, const Found& y) {
     const lmdbench_contact &a = x.contact, &b = y.contact;

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The geometric contact potential (Huang et al. 2025, smooth contact of ipc-toolkit): a pair of features (vertex-vertex, edge-vertex,
-// face-vertex, edge-edge) counts by smooth weights where an LMD has a yes or no: whether each feature has a minimum of the distance along the
-// pair's direction d (tangents: for each edge of a vertex and each face of an edge H(-d.t); normals: d on the outer side), whether the
-// nearest points are inside the features (mollifiers), and how much of the surface the feature stands for. Its set: the pairs of weight above
-// zero; its force: minus the gradient of the sum of weights times barrier, weights differentiated too. Decisions, ours: H is the cubic
-// smoothstep from -alpha to 0; the barrier is the text's, a cubic B-spline over the cutoff, over d/c to the power of 1; mollifiers as in
-// ipc-toolkit (threshold 1e-3); areas and squared lengths in squared cutoffs; newtons as they come out, times the cutoff; open borders have
-// no face to ask. Derivatives are those for a motion of A, by Eigen's automatic differentiation.
+// The geometric contact potential (Huang et al. 2025, smooth contact of ipc-toolkit). Pairs of
+// features (vertex-vertex, edge-vertex, face-vertex, edge-edge) have smooth weights for an LMD's
+// yes or no: a minimum of the distance along the pair's direction d (tangents: H(-d.t) per edge of
+// a vertex and face of an edge; normals: d on the outer side), nearest points inside the features
+// (mollifiers), share of the surface. Set: weight above zero. Force: minus the gradient of the sum
+// of weights times barrier. Our decisions: H is the cubic smoothstep from -alpha to 0; the text's
+// barrier, a cubic B-spline over the cutoff, over d/c to the power of 1; ipc-toolkit's mollifiers
+// (threshold 1e-3); areas, squared lengths in squared cutoffs; newtons as they result, times the
+// cutoff; open borders ask no face. Derivatives, also of weights, by A's motion: Eigen's AutoDiff.
 #include "near_pairs.h"
 #include "plugin.hpp"
 #include <Eigen/Geometry>
@@ -21,7 +22,7 @@ namespace {
 
 using namespace rivals;
 
-using Gradient = Eigen::Matrix<double, 6, 1>;  // by translation and turning of A
+using Gradient = Eigen::Matrix<double, 6, 1>;  // translation and rotation of A
 using Number = Eigen::AutoDiffScalar<Gradient>;
 using Vector = Eigen::Matrix<Number, 3, 1>;
 
@@ -58,13 +59,12 @@ Number barrier(const Number& x) {
   return spline / x;
 }
 
-/// One mesh of a pair.
 class Side {
  public:
   Side(const NearPairs& near, bool is_a)
       : near_(near), is_a_(is_a), edges_(is_a ? near.edges_a : near.edges_b) {}
 
-  /// Vertices of A move with it.
+  /// Vertices of A carry derivatives: they move with it.
   Vector point(std::int32_t v) const {
     const Point& p = is_a_ ? near_.point_a(v) : near_.point_b(v);
     Vector result;
@@ -88,7 +88,7 @@ class Side {
     return normal_to(point(v[1]) - point(v[0]), point(v[2]) - point(v[0]));
   }
 
-  // Weights of a feature for the unit direction to the other one; zero where the pair is none.
+  // Weights of a feature for the unit direction to the other one; zero if they are no pair.
   Number of_vertex(std::int32_t v, const Vector& d) const {
     const Vector p = point(v);
     Number weight(1.0, Gradient::Zero()), lengths(0.0, Gradient::Zero());
@@ -121,7 +121,7 @@ class Side {
     return 0.5 * sqrt(product(normal, normal));
   }
 
-  Point origin{};  ///< Of A's frame, that it turns about.
+  Point origin{};  ///< Origin of A's frame, which A turns about.
   double tangent_alpha = 0.5, normal_alpha = 0.1;
 
  private:
@@ -136,7 +136,7 @@ class Side {
   const Edges& edges_;
 };
 
-/// Point of the line through an edge that is nearest to p.
+/// Nearest point to p on the line through an edge.
 Vector on_line(const Vector& p, const Vector& from, const Vector& along) {
   return from + times(product(p - from, along) / product(along, along), along);
 }

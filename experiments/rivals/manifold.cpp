@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// An engine's contact manifold: Bullet's btGImpactMeshShape against itself, the shape that its users take for concave meshes that move, with a
-// collision margin; the pose's manifold is made from nothing. Decisions, ours: each mesh's margin is half the cutoff (Bullet's own default of 4
-// cm is of scenes a metre wide), so that contacts begin where LMDs do; with "points" "four" they are what btPersistentManifold keeps, four a
-// pair of objects, with "all" those before it throws any away; a point of Bullet's lies on one clipped triangle of two moved by their margins, so
-// that of a contact its pair of triangles is taken, at its exact nearest points, once; built for double precision where that is there.
+// Bullet's contact manifold: btGImpactMeshShape, its users' choice for moving concave meshes, with
+// a collision margin, new at each pose. Our decisions: each margin is half the cutoff (the default
+// of 4 cm suits scenes a metre wide): contacts begin where LMDs do. "points" "four": those that
+// btPersistentManifold keeps a pair of objects; "all": before that reduction. Bullet's points lie
+// on a clipped triangle of two moved by margins: each pair of triangles is a contact once, at its
+// exact nearest points. Double precision if Bullet has it.
 #include "closest.h"
 #include "plugin.hpp"
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
@@ -21,7 +22,6 @@ namespace {
 
 using namespace rivals;
 
-/// A mesh as Bullet has it.
 struct Shape {
   btTriangleMesh triangles{true, false};
   std::unique_ptr<btGImpactMeshShape> shape;
@@ -41,7 +41,7 @@ struct Shape {
   }
 };
 
-/// The pairs of triangles that touch within their margins, before any is thrown away.
+/// The pairs of triangles that touch within their margins, before the reduction.
 class AllPairs : public btManifoldResult {
  public:
   using btManifoldResult::btManifoldResult;

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-/// What `barrier`, `gcp` and `proxy` begin with: the pairs of features of two meshes whose boxes are within the cutoff.
+/// First step of `barrier`, `gcp` and `proxy`: pairs of features whose boxes are within the cutoff.
 namespace rivals {
 
 using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
@@ -19,7 +19,7 @@ inline Pairs& once(Pairs& pairs) {
   return pairs;
 }
 
-/// Edges of a mesh, each with a triangle and its number there, and what lies about edges and vertices.
+/// Edges of a mesh, each with a triangle and its number there, and the neighbours of features.
 struct Edges {
   struct Edge {
     std::int32_t from, to, triangle, part;
@@ -55,7 +55,7 @@ struct Edges {
   }
 };
 
-/// Boxes of triangles, larger by a margin, that Embree makes a tree of.
+/// Boxes of triangles, grown by a margin, in a tree of Embree's.
 class Boxes {
  public:
   Boxes(RTCDevice device, const Mesh& mesh, const std::vector<Point>& vertices, double margin)
@@ -114,8 +114,8 @@ struct Device {
   ~Device() { rtcReleaseDevice(device); }
 };
 
-/// Two meshes at a pose and their near pairs of features, each once, in the order of their numbers. The broad phase is made anew for each
-/// pose, from boxes inflated by the cutoff, by rtcCollide.
+/// Two meshes at a pose and their near pairs of features, each once, in the order of their numbers.
+/// The broad phase (rtcCollide) is rebuilt for each pose from boxes inflated by the cutoff.
 class NearPairs {
  public:
   Mesh a, b;
@@ -173,7 +173,7 @@ class NearPairs {
   }
 
   enum class Kind { CORNER_FACE, FACE_CORNER, EDGE_EDGE };
-  /// Calls take(kind, number on A, number on B, found) for all vertex-triangle and edge-edge pairs, wherever their nearest points lie.
+  /// Calls take(kind, number on A, number on B, found) for all vertex-triangle and edge-edge pairs.
   template <class Take>
   void for_each(const Take& take) const {
     const auto corner_of = [](const Mesh& mesh, std::int32_t v) {

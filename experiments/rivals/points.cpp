@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Points against a signed distance field (Barbic and James 2008): samples of A's surface, each pushed out of B along the field's gradient by
-// its depth below the cutoff, times the area that it stands for; force and torque only, its points are on no pair of triangles. The field is
-// OpenVDB's meshToSignedDistanceField, single precision, a narrow band a cutoff wide. Decisions, ours: depth counts from the cutoff, so that
-// force begins where an LMD's does; one way, A's samples against B's field; triangles are cut into n^2 equal ones, samples are their middles;
-// values trilinear, gradients central differences of them over a voxel, both continuous; the area is in squared cutoffs, stiffness 1 N a
-// cutoff. In place of the nested point tree of the text, samples in blocks whose bounding spheres ask a coarse field first.
+// Points against a signed distance field (Barbic and James 2008): samples of A are pushed out of B
+// along the field's gradient, by depth below the cutoff times the sample's area. Force and torque
+// only: points are on no pair of triangles. OpenVDB's meshToSignedDistanceField, floats, band a
+// cutoff wide. Our decisions: depth counts from the cutoff (force begins where an LMD's does); A's
+// samples, B's field; samples are middles of n^2 equal cuts of triangles; trilinear values, central
+// differences over a voxel, both continuous; areas in squared cutoffs, 1 N a cutoff. Instead of the
+// nested point tree, bounding spheres of blocks of samples ask a coarse field.
 #include "closest.h"
 #include "plugin.hpp"
 #include <nlohmann/json.hpp>
@@ -22,7 +23,7 @@ using namespace rivals;
 
 class Field {
  public:
-  /// @param band how far from the surface distances are known [m]
+  /// @param band distances are known within it [m]
   Field(const Mesh& mesh, double voxel, double band) : voxel_(voxel) {
     openvdb::initialize();
     std::vector<openvdb::Vec3s> points;
@@ -43,7 +44,7 @@ class Field {
         static_cast<float>(width), static_cast<float>(width));
   }
 
-  /// One that asks; keeps its way through the tree.
+  /// Reads values; keeps its path through the tree.
   class Reader {
    public:
     explicit Reader(const Field& field) : voxel_(field.voxel_), accessor_(field.grid_->getConstAccessor()) {}
@@ -116,7 +117,7 @@ class Points {
     double radius = 0.0;
   };
 
-  /// 64 voxels along B, known as far as A reaches.
+  /// 64 voxels along B; its band includes all of A.
   static Field coarse_field(const Mesh& a, const Mesh& b) {
     return Field(b, b.diagonal / 64.0, 0.5 * std::min(a.diagonal, b.diagonal));
   }
@@ -140,7 +141,6 @@ class Points {
     }
   }
 
-  /// Halves what is too many along its longest side.
   void make_blocks(std::size_t begin, std::size_t end) {
     constexpr std::size_t MOST = 64;
     Point low = samples_[begin].p, high = low;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A constraint method: a god object (Ortega, Redon and Coquillart 2007) over a virtual coupling. The proxy is the pose nearest to the
-// device's in which no pair of features is nearer than the skin; each of its steps is the motion nearest to the one wanted, in the metric of
-// kinetic energy (Gauss), under n.v >= skin - d of all vertex-triangle and edge-edge pairs at hand, solved by projected Gauss-Seidel. The
-// coupling pulls A towards the proxy: force stiffness times the way, torque stiffness times radius^2 times the turn. Decisions, ours: the
-// skin is the cutoff, so that force begins where an LMD's does; the proxy sets out from the device's pose in each frame (a method of this
-// interface answers the same at the same pose: on a path that does not go through the mesh the pose found is the same, and what a god object
-// remembers beyond a thin wall is not asked for); the mass is at the vertices' mean, its radius of gyration the vertices'.
+// A god object (Ortega, Redon and Coquillart 2007) over a virtual coupling. The proxy is the pose
+// nearest to the device's with no features nearer than the skin. A step is the nearest motion in
+// kinetic energy (Gauss) under n.v >= skin - d for near vertex-triangle and edge-edge pairs, by
+// projected Gauss-Seidel. Force: stiffness times offset; torque: stiffness times radius^2 times
+// turn. Our decisions: the skin is the cutoff (force begins where an LMD's does); frames start at
+// the device's pose (a method has one answer a pose; off paths through the mesh the proxy is the
+// same; memory beyond thin walls is not studied); the mass has the vertices' mean and gyration.
 #include "near_pairs.h"
 #include "plugin.hpp"
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ Rotation turn_of(const Point& axis_times_angle) {
           Point{c * n[0] * n[2] - s * n[1], c * n[1] * n[2] + s * n[0], 1 - c * (n[0] * n[0] + n[1] * n[1])}};
 }
 
-/// A motion of A against where the device has it: first the turn about the centre, then the way.
+/// A motion of A from the device's pose: first the turn about the centre, then the translation.
 struct Motion {
   Point way{}, turn{};
 };
@@ -85,7 +85,7 @@ class Proxy {
     return result;
   }
 
-  /// Turns are small: those of steps add up. In the metric of energy turns are lengths, times the radius.
+  /// Turns are small, so they add up. In the metric of energy they are lengths, times the radius.
   void take_step(const Point& centre, Motion& motion) const {
     std::vector<Constraint> all;
     near_->for_each([&](NearPairs::Kind, std::int32_t, std::int32_t, const Found& pair) {
@@ -96,7 +96,7 @@ class Proxy {
       const Point arm = (1.0 / radius_) * cross(on_a - centre, normal);
       all.push_back({normal, arm, skin_ - pair.distance, 1.0 + dot(arm, arm)});
     });
-    // What is wanted: back to the device.
+    // Wanted: back to the device.
     Point way = -1.0 * motion.way, turn = (-radius_) * motion.turn;
     constexpr int SWEEPS = 200;
     constexpr double ENOUGH = 1e-9;  // skins
@@ -112,13 +112,13 @@ class Proxy {
       }
       if (most < ENOUGH * skin_) break;
     }
-    // No farther than pairs were looked for.
+    // No farther than pairs were searched for.
     const double length = norm(way) + norm(turn), share = std::min(1.0, skin_ / std::max(length, 1e-300));
     motion.way = motion.way + share * way;
     motion.turn = motion.turn + (share / radius_) * turn;
   }
 
-  /// Pairs that constrain a step, in skins: on its way back to the device the proxy meets those that are a skin farther.
+  /// Range of constraining pairs, in skins: a step towards the device moves by up to one.
   static constexpr double REACH = 2.0;
 
   std::unique_ptr<NearPairs> near_;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each vertex to the other surface, both ways: what cloth and many engines use. Decisions, ours: the nearest point of the other surface is
-// the partner, up to the cutoff, whatever side it is on; vertices that share a partner each count; what lies between two edges is
-// not seen. Candidates by Embree's point queries (single precision, with a margin), distances in double.
+// Each vertex to the other surface, both ways, as in cloth and many engines. Our decisions: the
+// partner is the nearest point within the cutoff, on any side; vertices with one partner count
+// each; edge-edge is missed. Candidates by Embree's point queries (float, with margin).
 #include "closest.h"
 #include "plugin.hpp"
 #include <embree3/rtcore.h>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace rivals;
 
-/// A mesh that is asked for its nearest point.
+/// A mesh that can be queried for its nearest point.
 class Tree {
  public:
   explicit Tree(const Mesh& mesh) : mesh_(mesh), margin_(1e-6 * mesh.diagonal) {

@@ -15,9 +15,8 @@
 #include <functional>
 #include <memory>
 
-/// Times every implementation of the task "global search" on the same poses, interleaved
-/// pose by pose, and reports the error of each beside its time. Exit code 1 when an
-/// implementation does not do what it promises.
+/// Times all implementations of the task "global search" at the same poses, interleaved pose by
+/// pose, and reports each one's error beside its time. Exit code 1 when one breaks its promise.
 namespace lmdbench::experiments {
 namespace {
 
@@ -35,7 +34,7 @@ struct Row {
   double median_ms = 0.0, p99_ms = 0.0, ratio_to_fcl = 0.0;
 };
 
-/// What a run finds in the caches: what the task before it left, its own data of another pose, or others' data.
+/// The caches before a run: data of the task before it, its own of another pose, or unrelated data.
 struct Caches {
   const char* name;
   std::function<void(GlobalSearch&, std::size_t pose)> prepare;

@@ -24,18 +24,17 @@
 #include <limits>
 #include <memory>
 
-/// Is `certified` complete and exact? Recall and precision, distances and points against `exhaustive` on
-/// random grazing poses of many mesh pairs, and frame coherence against searches from scratch along recorded
-/// paths. Markdown on standard output, JSON in a file. Exit code 1 on the first thing that is wrong, after
-/// all has run; every wrong pose is printed as a TUM line that `--poses-file` takes, one of flat
-/// shapes as a line for completeness/tests/parts_study_test.cpp. Flat shapes are made by the
-/// generator of `parts` (CLEAR_SHAPES): one seed has other poses there than in tables made before
-/// 2026-11-25.
+/// Is `certified` complete and exact? Its LMDs, distances and points are compared with `exhaustive`
+/// at random grazing poses of many mesh pairs, and frame coherence with searches from scratch along
+/// recorded paths. Markdown on standard output, JSON in a file. Exit code 1 when anything was
+/// wrong. Each wrong pose is printed as a TUM line for `--poses-file`, of flat shapes as a line for
+/// completeness/tests/parts_study_test.cpp. The generator of `parts` (CLEAR_SHAPES) makes the flat
+/// shapes: one seed gives other poses than in tables made before 2026-11-25.
 namespace lmdbench::completeness {
 namespace {
 
-/// Scans with much detail, CAD, holes, few and large triangles, parallel faces, extreme shapes; every mesh of
-/// the manifest that is no variant of another one appears.
+/// Detailed scans, CAD, holes, few and large triangles, parallel faces, extreme shapes; every mesh
+/// of the manifest that is no variant of another one appears.
 const std::vector<std::string> DEFAULT_PAIRS = {"bunny-5k:bunny-5k",
                                                 "bunny-10k:bunny-5k",
                                                 "bunny-16k:bunny-16k",
@@ -70,7 +69,7 @@ struct CompletenessChoice : experiments::StudyChoice {
 
 constexpr std::size_t MAXIMUM_COMPLAINTS = 20;
 
-/// Prints the first complaints in full and counts all.
+/// Prints the first complaints in full and counts all of them.
 class Complaints {
  public:
   Complain about(const std::string& subject) {
@@ -287,7 +286,7 @@ int judge_completeness(const CompletenessChoice& choice) {
   return static_cast<int>(ExitCode::CHECK_FAILED);
 }
 
-/// A pair, a kind of generated scene or a path each, in the order of the report.
+/// A piece for each mesh pair, kind of generated scene and path, in the order of the report.
 std::vector<study::Arguments> pieces(const CLI::App& command, const CompletenessChoice& choice) {
   const std::vector<std::string> kinds = {"--far-poses", "--flat-poses", "--rounded-poses"};
   study::Arguments common = study::arguments_without(

@@ -13,8 +13,8 @@
 #include <memory>
 #include <optional>
 
-/// What becomes of the summed force where contacts are born and die, under every law: indices, jumps, work, tessellation, cost.
-/// Exit code 1 where sums of indices or minima are wrong, a continuous law jumps, or differs from the sum where nothing is near a saddle.
+/// The force at births and deaths of contacts under every law: indices, jumps, work, cuts, cost.
+/// Exit code 1: wrong indices or minima; a continuous law jumps or, off saddles, is not the sum.
 namespace lmdbench::study {
 
 namespace {
@@ -38,13 +38,13 @@ struct ForceStudy {
   bool asks(const std::string& part) const { return std::ranges::find(parts, part) != parts.end(); }
 };
 
-/// Bars of results/reference/continuous-force.md.
-/// Of the path of that name.
+/// Frames of the path "shapes".
 constexpr std::size_t SHAPES_FRAMES = 800;
+/// Limits of results/reference/continuous-force.md.
 constexpr double LARGEST_SEPARATED_DIFFERENCE = 1e-12, LARGEST_EVENT = 1e-6, LARGEST_DECAY = 0.12,
                  SHORTEST_STEP = 1e-9;
 
-/// Pairs of a step that are printed.
+/// Number of a step's pairs that are printed.
 constexpr std::size_t MOST_CHANGES = 8;
 
 std::string laws_header(const std::string& before) {

@@ -26,8 +26,8 @@
 #include <utility>
 #include <vector>
 
-/// `certified` on meshes that deform: is its set the true one in every frame, what does it cost to follow, and how good are the
-/// bounds that were refitted against those that are built anew. Markdown on standard output; exit code 1 when a set is wrong.
+/// `certified` on meshes that deform: whether its set is the true one in every frame, the cost of
+/// following, and how good refitted bounds are against new ones. Exit code 1 when a set is wrong.
 namespace lmdbench::study {
 namespace {
 
@@ -45,15 +45,15 @@ struct DeformChoice {
 
 constexpr double DIAGONAL = 0.15;  ///< Of all meshes [m].
 constexpr double GAP = 0.002;      ///< At rest, as a share of the diagonal.
-/// Poses that the frames are shared among, so that one contact decides nothing.
+/// The frames are split among so many poses, so that no single contact decides the result.
 constexpr std::size_t POSES = 10;
 
-/// A deformation of the study. All go forth and back in `period` frames.
+/// A deformation of the study; all oscillate with `period` frames.
 struct Kind {
   std::string name;
   DeformationChoice choice;
   double period = 500.0;
-  double fold = 0.0;  ///< Not 0: half the angle [rad] of a fold instead, through the middle of the mesh.
+  double fold = 0.0;  ///< If not 0: a fold instead; turn of each half [rad].
 };
 
 std::vector<Kind> all_kinds() {
@@ -68,7 +68,7 @@ std::vector<Kind> all_kinds() {
   return kinds;
 }
 
-/// Creases through a level sheet, to a ridge, a valley and back; the angle by which each half turns.
+/// Folds of a level sheet to a ridge, to a valley and back, by the angle of each half.
 std::vector<Kind> all_folds() {
   std::vector<Kind> kinds;
   for (const double angle : {1e-9, 1e-3, 10.0 * std::numbers::pi / 180.0})
@@ -89,7 +89,7 @@ class Frames {
       return;
     }
     vertices = rest_;
-    // Level for a part of each period, so that the plane is one again.
+    // Level for a part of each period, so that both halves become one plane again.
     const double strength = std::clamp(1.5 * std::sin(2.0 * std::numbers::pi * phase), -1.0, 1.0);
     const double fold = std::abs(strength) < 0.3 ? 0.0 : std::tan(strength * kind_.fold);
     for (Vec3& p : vertices) p.z() -= fold * std::abs(p.x());
@@ -101,7 +101,7 @@ class Frames {
   std::optional<Deformation> deformation_;
 };
 
-/// A small swing about the pose of a frame's share of the run.
+/// The pose of the frame's share of the run, swung a little about an axis.
 Pose swung(const std::vector<Pose>& poses, std::size_t frame, std::size_t frames) {
   Pose pose = poses[frame * poses.size() / frames];
   const double phase = 0.02 * static_cast<double>(frame);
@@ -119,7 +119,7 @@ bool same_bits(const LmdSet& a, const LmdSet& b) {
   });
 }
 
-/// Processor time [s] of all threads: other programs on the machine count as little as they can.
+/// Processor time [s] of all threads, which other programs affect least.
 template <class Work>
 double processor_seconds_of(Work&& work) {
   const double start = experiments::process_seconds();
@@ -131,7 +131,7 @@ std::shared_ptr<const Body> body_of(const TriangleMesh& mesh) {
   return std::make_shared<const Body>("mesh", build_surface(mesh));
 }
 
-/// The set of the method that follows against the truth and against a method made for the frame's mesh, in every frame.
+/// Set of the method that follows, against the truth and a method made for each frame's mesh.
 nlohmann::json measure_truth(const DeformChoice& choice, const std::string& name, const Kind& kind,
                              double cutoff) {
   const auto rest = experiments::load_body(name, choice.meshes, DIAGONAL);
@@ -179,7 +179,7 @@ nlohmann::json measure_truth(const DeformChoice& choice, const std::string& name
           {"frames_of_other_bits", other_bits}};
 }
 
-/// What following costs, and what the refitted bounds cost a search from scratch against those of a mesh that is prepared anew.
+/// Cost of following, and cost of a search from scratch with refitted bounds and with new ones.
 nlohmann::json measure_cost(const DeformChoice& choice, const Kind& kind) {
   const auto rest = experiments::load_body(choice.large, choice.meshes, DIAGONAL);
   const std::vector<Pose> poses =
@@ -190,7 +190,7 @@ nlohmann::json measure_cost(const DeformChoice& choice, const Kind& kind) {
   const Scene scene{body, {rest}, 0.02 * DIAGONAL};
   Certified kept(scene), scratch(scene, {.frame_coherence = false});
   const auto& hierarchy = body->prepared<WideHierarchy>();
-  body->deform(mesh.vertices);  // A step that moves nothing prepares the others.
+  body->deform(mesh.vertices);  // moves nothing; prepares the other steps
   using Counter = Certified::Counter;
   std::vector<double> following, searching, preparing, faces;
   WorkCounters of_kept, of_scratch, of_scratch_then, of_fresh;

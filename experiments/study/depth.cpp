@@ -19,10 +19,10 @@
 #include <limits>
 #include <memory>
 
-/// What a frame costs at every depth of overlap: the moving mesh slides along x from where the bounding boxes are
-/// apart until their centres meet, turned a little, so that copies do not coincide. `certified` with frame
-/// coherence and from scratch are timed in every frame (the least of several passes, processor time of one
-/// thread), and their sets compared with `exhaustive` in some. Exit code 1 when a set is wrong.
+/// Cost of a frame at every depth of overlap: the moving mesh slides along x from where the boxes
+/// are apart until the centres meet, turned a little, so that copies do not coincide. `certified`,
+/// coherent and from scratch, is timed (least of several passes, processor time of one thread); in
+/// some frames its sets are compared with `exhaustive`. Exit code 1 when a set is wrong.
 namespace lmdbench::study {
 namespace {
 
@@ -38,7 +38,7 @@ struct DepthChoice {
 struct Way {
   const char* name;
   bool coherent;
-  std::vector<double> seconds;  ///< One a frame: the least of the passes.
+  std::vector<double> seconds;  ///< One per frame: the least of the passes.
 };
 
 Eigen::AlignedBox3d box_of(const Body& body) {
@@ -56,7 +56,7 @@ std::vector<Pose> slide(const Scene& scene, const DepthChoice& choice) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double depth = static_cast<double>(i) / static_cast<double>(choice.frames);
     poses[i].rotation = Eigen::AngleAxisd(choice.turn, Vec3::UnitZ());
-    // Beside the centre by a little: nothing is to be symmetric.
+    // A little beside the centre, so that nothing is symmetric.
     const Vec3 centre = fixed.center() + Vec3((1.0 - depth) * reach, 0.003 * diagonal, 0.002 * diagonal);
     poses[i].translation = centre - poses[i].rotation * moving.center();
   }

@@ -25,9 +25,9 @@
 #include <numbers>
 #include <vector>
 
-/// What a face that lies on a face costs, over the number of triangles that it is cut into: `certified` from scratch and
-/// coherent, FCL's nearest pair, and a grazing pose of two bunnies from scratch, interleaved pose by pose. Exit code 1
-/// when `certified` does not find one contact at the gap.
+/// Cost of a face that lies on a face, over the number of triangles: `certified` from scratch and
+/// coherent, FCL's nearest pair, and a grazing pose of two bunnies from scratch, interleaved pose
+/// by pose. Exit code 1 when `certified` does not find one contact at the gap.
 namespace lmdbench::flat {
 namespace {
 
@@ -64,7 +64,7 @@ const std::vector<Family>& families() {
   return all;
 }
 
-/// A slide in the plane of contact, with a turn in it; the last frame is where the search is timed.
+/// A slide in the plane of contact with a turn; the search is timed at the last frame.
 std::vector<Pose> slide(double height, double size, experiments::Random& random) {
   const double angle = 2.0 * std::numbers::pi * random.uniform(),
                way = 2.0 * std::numbers::pi * random.uniform();
@@ -84,7 +84,7 @@ std::string times(const std::vector<double>& seconds) {
                      1e6 * *std::max_element(seconds.begin(), seconds.end()));
 }
 
-/// Least squares through the logarithms of the medians.
+/// Exponent by least squares through the logarithms of the medians.
 double slope_of(const std::vector<double>& triangles, const std::vector<std::vector<double>>& seconds,
                 const std::vector<std::size_t>& drawn) {
   std::vector<double> medians;
@@ -96,7 +96,7 @@ double slope_of(const std::vector<double>& triangles, const std::vector<std::vec
   return experiments::log_slope(triangles, medians);
 }
 
-/// With its 95 % interval: the poses are drawn again 2,000 times, the same ones for every number of triangles.
+/// With a 95 % interval from 2,000 draws of poses, the same for all numbers of triangles.
 nlohmann::json slope(const std::vector<double>& triangles, const std::vector<std::vector<double>>& seconds) {
   std::vector<std::size_t> drawn(seconds.front().size());
   for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = i;
@@ -111,7 +111,7 @@ nlohmann::json slope(const std::vector<double>& triangles, const std::vector<std
   return {{"slope", value}, {"low", quantile(samples, 0.025)}, {"high", quantile(samples, 0.975)}};
 }
 
-/// A method with the set that it found last.
+/// A method with its last set.
 struct Runner {
   std::unique_ptr<Method> method;
   LmdSet lmds;

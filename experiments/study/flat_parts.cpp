@@ -34,15 +34,15 @@ using experiments::Random;
 using experiments::trembling_poses;
 
 constexpr double TAU = 2.0 * std::numbers::pi;
-/// Of the moving mesh's diagonal, where a design has no cutoff of its own.
+/// Share of the moving mesh's diagonal, for designs without a cutoff of their own.
 constexpr double CUTOFF = 0.005;
-/// The same, a frame.
+/// Step of a frame, as a share of the same diagonal.
 constexpr double STEP = scaling::SLIDE_DIAGONALS_PER_FRAME;
 constexpr std::size_t FRAMES = 21;
-/// Of a motion that trembles: it takes some frames until that is known.
+/// Frames of a trembling motion: the method recognises it only after some frames.
 constexpr std::size_t TREMBLING_FRAMES = 121;
 
-/// Where the moving mesh is after a number of frames.
+/// Pose of the moving mesh after a number of frames.
 using Motion = std::function<Pose(double frame)>;
 
 struct Design {
@@ -60,7 +60,7 @@ Vec3 level(double angle) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-/// At a gap of 0.1 % over the other one's upper side, within `reach` of its middle, sliding and turning.
+/// Slides and turns at a gap of 0.1 % over the top of the other, within `reach` of its middle.
 Design laid_on(TriangleMesh moving, TriangleMesh fixed, double reach) {
   const double diagonal = bounding_box_diagonal(moving);
   Eigen::AlignedBox3d box_moving, box_fixed;
@@ -77,7 +77,7 @@ Design laid_on(TriangleMesh moving, TriangleMesh fixed, double reach) {
           }};
 }
 
-/// Nearer to one side, half of them without a turn and a tilt, so that walls are parallel; slides along the axis.
+/// A peg nearer to one side, sliding along the axis; half without turn and tilt: parallel walls.
 Design peg_in_bore(int segments) {
   constexpr double RADIUS = 0.25;
   TriangleMesh peg =
@@ -104,7 +104,7 @@ TriangleMesh gear(int teeth) {
   return make_sleeve(outline, circle_outline(0.2, outline), {.height = 0.2, .around = 8 * teeth});
 }
 
-/// One rolls round the other, on one flank or between both.
+/// One gear rolls round the other, on one flank or between both.
 Design gears_in_mesh(int teeth) {
   TriangleMesh mesh = gear(teeth);
   const double step = STEP * bounding_box_diagonal(mesh);
@@ -119,7 +119,7 @@ Design gears_in_mesh(int teeth) {
           }};
 }
 
-/// The extreme scene's pair, screwed in, off the axis by some of the play.
+/// The pair of the extreme scene, screwed in, off the axis by a part of the play.
 Design bolt_in_nut() {
   constexpr double PITCH = 0.2, PLAY = 0.015;
   TriangleMesh bolt = make_sleeve(thread_outline(0.5, 0.1, PITCH), nullptr,
@@ -138,7 +138,7 @@ Design bolt_in_nut() {
           0.004};
 }
 
-/// Of a frame of a hand that trembles, with a new direction and axis in each: a ninth of a slide's, or as much.
+/// Steps of a trembling hand, in a new direction each: a ninth of a slide's, or all of it.
 constexpr double TREMBLE = STEP / 9.0, TREMBLE_RAD = 5e-5;
 constexpr double WALK = STEP, WALK_RAD = 3e-4;
 
@@ -149,8 +149,8 @@ Motion trembling(const Pose& begin, double step, double turn, Random& random) {
 
 enum class Crates { HILL_ON_HILL, NESTED, TREMBLING };
 
-/// Two wavy sheets of 20,000 triangles, 3 mm a metre apart: one upside down, hill on hill; or nested, farther apart than the cutoff, which
-/// slide or tremble.
+/// Two wavy sheets of 20,000 triangles, 3 mm apart at a size of one metre: one upside down, crest
+/// to crest; or nested, farther apart than the cutoff, sliding or trembling.
 Design egg_crates(Crates how) {
   constexpr int CELLS = 100, CELLS_A_WAVE = 25;
   constexpr double HEIGHT = 0.02, GAP = 0.003, WAY = 0.0025;
@@ -177,7 +177,7 @@ Design egg_crates(Crates how) {
           is_nested ? 0.5 * GAP / diagonal : CUTOFF, trembles ? TREMBLING_FRAMES : FRAMES};
 }
 
-/// A scan that grazes itself in the hand.
+/// A scan that grazes itself, held in a hand.
 /// @param step  diagonals a frame
 /// @param turn  radians a frame
 Design scan_in_hand(const PartsTimes& choice, double step, double turn) {
@@ -192,7 +192,7 @@ Design scan_in_hand(const PartsTimes& choice, double step, double turn) {
           CUTOFF, TREMBLING_FRAMES};
 }
 
-/// One over the other, outlines in line, and nearer by a step in each frame.
+/// One above the other with aligned outlines, nearer by a step in each frame.
 Design stacked(TriangleMesh moving, TriangleMesh fixed, double gap, const Pose& turn) {
   Eigen::AlignedBox3d box_moving, box_fixed;
   for (const Vec3& p : moving.vertices) box_moving.extend(turn.rotation * p);
@@ -206,7 +206,7 @@ Design stacked(TriangleMesh moving, TriangleMesh fixed, double gap, const Pose& 
           }};
 }
 
-/// A tooth of each crosses a tooth of the other at every place of a grid.
+/// A grid of crossings, each of one tooth of either comb.
 Design crossed_combs(int teeth) {
   const TriangleMesh comb = parts::make_comb(teeth, 0.5 / teeth);
   return stacked(comb, comb, 0.001, {Vec3::Zero(), about_z(0.5 * std::numbers::pi)});
@@ -224,7 +224,7 @@ Design disc_on_its_copy(int corners) {
   return stacked(disc, disc, 0.0, {});
 }
 
-/// A pleated fan round one vertex, over which a tetrahedron slides, a corner first.
+/// A pleated fan round one vertex; a tetrahedron slides over it, corner first.
 Design tetrahedron_on_hub(int triangles) {
   TriangleMesh hub, tetrahedron;
   hub.vertices.emplace_back(0.0, 0.0, 0.25);
@@ -245,7 +245,7 @@ Design tetrahedron_on_hub(int triangles) {
           }};
 }
 
-/// A block that covers as many holes, or the same share of the sheet.
+/// A block over `covered` x `covered` of `count` x `count` holes: rows fix the number or the share.
 Design block_on_sheet(int count, int covered) {
   constexpr double SIDE = 0.25, HOLE = 0.09375, THICKNESS = 0.0625;
   const double side = SIDE * covered;
@@ -294,7 +294,7 @@ std::vector<Row> rows(const PartsTimes& choice) {
   };
 }
 
-/// How one of the two ways fared: of every frame the least of the passes.
+/// Results of one of the two ways: of every frame the least of the passes.
 struct Way {
   std::unique_ptr<Method> method;
   LmdSet lmds;
@@ -321,7 +321,7 @@ std::string columns(const std::vector<double>& seconds) {
                      std::count_if(seconds.begin(), seconds.end(), [](double s) { return s > 1e-3; }));
 }
 
-/// @return false where the two ways have other numbers of LMDs
+/// @return false where the sets of the two ways differ in some frame
 bool measure(const Row& row, bool floats, const PartsTimes& choice, nlohmann::json& report) {
   Design design = row.design();
   Random random(choice.seed);
@@ -365,7 +365,7 @@ bool measure(const Row& row, bool floats, const PartsTimes& choice, nlohmann::js
       checksum = mixed(checksum, ways[0].lmds);
       if (mixed(0, ways[0].lmds) != mixed(0, ways[1].lmds)) ++differ;
     }
-  // The first frame of a path keeps nothing of the last one of the path before.
+  // The first frame of a path reuses nothing of the path before.
   std::vector<double> coherent;
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (i % design.frames != 0) coherent.push_back(ways[1].seconds[i]);

@@ -16,12 +16,12 @@ struct PartsTimes {
   std::uint64_t seed = 1;
   std::string scan = "bunny-16k";  ///< Mesh of the rows without flat faces.
   std::filesystem::path meshes = "meshes";
-  std::string row;  ///< Part of the names of those that are timed.
+  std::string row;  ///< Only rows whose names contain this are timed.
   std::string json;
 };
 
-/// Times `certified` from scratch and coherently where machine parts lie on and in each other, and for comparison where a scan grazes itself, exact
-/// and turned and rounded to floats, and prints a table. The report has a checksum of every row's sets, the same in two builds whose results are the same bits.
+/// Times `certified` from scratch and coherently where machine parts lie on and in each other, or a
+/// scan grazes itself; exact, turned, and as floats. The report has a checksum of each row's sets.
 /// @return exit code: 1 where the two ways differ
 int time_parts(const PartsTimes& choice, nlohmann::json report);
 

@@ -15,9 +15,9 @@
 #include <cstdio>
 #include <memory>
 
-/// lmdbench-study hostile [--poses N] [--frames N] [--seed S] [--motion M]... [--json FILE]: `certified` against `exhaustive` on
-/// meshes that are broken in every way, at unrelated poses and along nasty motion. Markdown on standard output, what is wrong on
-/// standard error. Exit code 1 where something is.
+/// lmdbench-study hostile [--poses N] [--frames N] [--seed S] [--motion M]... [--json FILE]:
+/// `certified` against `exhaustive` on broken meshes, at unrelated poses and along difficult
+/// motion. Markdown on standard output, errors on standard error. Exit code 1 where there is one.
 namespace lmdbench::completeness {
 namespace {
 

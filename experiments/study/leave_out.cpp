@@ -27,9 +27,9 @@
 #include <string>
 #include <vector>
 
-/// What each rule of the plan saves, and that it changes no result: every scene is run as a user would run it, in a
-/// process of its own, with all rules on auto, with one of them off, and with all of them off. Settings take turns in
-/// random order, round by round, and a ratio is one of two processes of the same round.
+/// What each rule of the plan saves, and whether it changes a result. Every scene is run as a user
+/// would, in its own process: with all rules on auto, with one off, and with all off. Settings
+/// alternate in random order, round by round; a ratio compares two processes of the same round.
 namespace lmdbench::study {
 namespace {
 
@@ -42,19 +42,19 @@ struct LeaveOutChoice {
   std::int64_t frames = 0;
 };
 
-/// What one process cost.
+/// The cost of one process.
 struct Cost {
-  double seconds = 0.0;  ///< Of the processor.
+  double seconds = 0.0;  ///< Processor time.
   double wall_seconds = 0.0;
-  double megabytes = 0.0;  ///< Most that was resident.
+  double megabytes = 0.0;  ///< Peak of resident memory.
 };
-using Costs = std::vector<Cost>;  // one a round
+using Costs = std::vector<Cost>;  // one per round
 
 std::filesystem::path program() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "lmdbench";
 }
 
-/// Runs the program in silence.
+/// Runs the program without output.
 Cost run_once(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -82,7 +82,7 @@ Cost run_once(const std::vector<std::string>& arguments) {
 }
 
 /// @param setting AUTO, NONE or the rule that is off
-/// @param frames  0: all of the path
+/// @param frames  0: the whole path
 Cost run_scene(const std::string& experiment, const std::string& setting, std::int64_t frames,
                const std::filesystem::path& out) {
   std::vector<std::string> arguments{
@@ -101,7 +101,7 @@ double median_of(const Costs& costs, double Cost::*member) {
   return median(values);
 }
 
-/// What is saved of `without`, in percent, round by round: "30 (28 to 33)", the median and all that were seen.
+/// Saved share of `without` [%], round by round: "30 (28 to 33)" is the median, least and most.
 struct Saving {
   double median = 0.0, least = 0.0, most = 0.0;
   std::string text() const { return fmt::format("{:.0f} ({:.0f} to {:.0f})", median, least, most); }
@@ -114,7 +114,7 @@ Saving saving(const Costs& without, const Costs& with, double Cost::*member) {
   return {median(percent), *least, *most};
 }
 
-/// What differs between two results, times apart: names of counters for those, else datasets.
+/// Names of counters, else datasets, that differ between two results; times are ignored.
 std::set<std::string> differences(const std::filesystem::path& without, const std::filesystem::path& with) {
   const ResultReader base(without), candidate(with);
   std::set<std::string> names;
@@ -180,7 +180,7 @@ int compare_rules(const LeaveOutChoice& choice) {
       }
       const Saving time = saving(costs[rule], with, &Cost::seconds);
       const Saving memory = saving(costs[rule], with, &Cost::megabytes);
-      // In every round, so that noise alone cannot look like a saving.
+      // Required in every round: noise alone cannot look like a saving.
       if (time.least > 0.0 && time.median > 1.0) ++pays[rule];
       rows[rule] +=
           fmt::format("| {} | {:.0f} | {:.0f} | {} | {} | {} | {} |\n", name,

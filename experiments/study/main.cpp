@@ -6,8 +6,8 @@
 #include <study/studies.h>
 #include <support/program.h>
 
-/// lmdbench-study: questions beyond one experiment. Markdown on standard output, numbers in a JSON file where --json
-/// names one; exit code 1 when a method breaks a promise.
+/// lmdbench-study: questions beyond one experiment. Markdown on standard output, numbers in the
+/// file of --json; exit code 1 when a method breaks a promise.
 int main(int argc, char** argv) {
   using namespace lmdbench;
   CLI::App app("Studies of the methods: what they miss, what they cost, how costs grow", "lmdbench-study");

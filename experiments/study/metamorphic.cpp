@@ -18,9 +18,9 @@
 #include <cstdio>
 #include <memory>
 
-/// lmdbench-study metamorphic [--poses N] [--seed S] [--parts NAME]... [--generator G] [--out DIR] [--json FILE]: does the answer stay when
-/// nothing is changed that matters? Markdown on standard output, what is wrong on standard error, the first pair at fault as files. Exit
-/// code 1 where something is wrong.
+/// lmdbench-study metamorphic [--poses N] [--seed S] [--parts NAME]... [--generator G] [--out DIR]
+/// [--json FILE]: changes that must not change the answer. Markdown on standard output, errors on
+/// standard error, the first wrong pair as files. Exit code 1 where there is one.
 namespace lmdbench::completeness {
 namespace {
 
@@ -43,7 +43,7 @@ std::vector<std::string> names_of(const std::string& generator) {
   return names;
 }
 
-/// @param index of the pose; those of one scene of parts follow each other
+/// @param index of the pose; poses of one parts scene have consecutive indices
 ScenePair make_pair(const MetamorphicChoice& choice, const std::string& name, std::size_t index) {
   if (choice.generator == "rest")
     return pair_of(parts::make_rest_scene(parts::rest_fit(name), choice.seed, index));

@@ -14,9 +14,9 @@
 #include <cstdio>
 #include <memory>
 
-/// lmdbench-study parts [--poses N] [--seed S] [--kind K]... [--generator G] [--json FILE]: `certified` against `exhaustive` on random
-/// poses of machine parts. Markdown on standard output; every wrong pose as a line that goes into
-/// completeness/tests/parts_study_test.cpp on standard error. Exit code 1 where something is wrong.
+/// lmdbench-study parts [--poses N] [--seed S] [--kind K]... [--generator G] [--json FILE]:
+/// `certified` against `exhaustive`. Markdown on standard output, wrong poses on standard error as
+/// lines for completeness/tests/parts_study_test.cpp. Exit code 1 if there is one.
 namespace lmdbench::completeness {
 namespace {
 

@@ -6,14 +6,14 @@
 #include <fmt/core.h>
 #include <study/studies.h>
 
-/// Energy that a sampled wall gives, against theory, and the limit cycles that quantisation leaves: tables in Markdown
-/// (phantom/passivity.h tells the theory).
+/// Energy that a sampled wall generates, against theory, and limit cycles of quantisation: tables
+/// in Markdown (theory: phantom/passivity.h).
 namespace lmdbench::study {
 namespace {
 
 constexpr double WALL_PERIOD = 1e-3;
 constexpr double DAMPING = 0.8;
-constexpr double WAY = 1e-4;  ///< A tenth of a metre a second.
+constexpr double WAY = 1e-4;  ///< 0.1 m/s at 1 kHz.
 constexpr int DEPTH = 50;
 constexpr double COLGATE = 2.0 * DAMPING / WALL_PERIOD;
 
@@ -41,7 +41,7 @@ int tables() {
     const SampledWall wall{ratio * COLGATE, WALL_PERIOD, COUNT};
     const double half_count_force = 0.5 * wall.stiffness_n_per_m * COUNT;
     for (const double share : {0.0, 0.1, 0.25, 0.5, 0.99, 1.01, 2.0}) {
-      // The load lies midway between two counts' forces: no rest without friction.
+      // The load lies midway between the forces of two counts: no equilibrium without friction.
       const double load = 20.5 * wall.stiffness_n_per_m * COUNT;
       const RestingSwing swing =
           rest_on(wall, {0.04, DAMPING, share * half_count_force, std::nullopt}, load, 0.01, 40000);

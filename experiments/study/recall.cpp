@@ -14,9 +14,9 @@
 #include <algorithm>
 #include <memory>
 
-/// Recall and precision of the paper's algorithms against ground truth on random grazing poses,
-/// step by step. Markdown on standard output, JSON in a file. Exit code 1 when the cones alone lose
-/// an LMD: they must be conservative.
+/// Recall and precision of the paper's algorithms against the truth at random grazing poses, step
+/// by step. Markdown on standard output, JSON in a file. Exit code 1 when the cones alone lose an
+/// LMD, because they must be conservative.
 namespace lmdbench::recall_study {
 namespace {
 
@@ -67,8 +67,7 @@ int measure_recall(const experiments::StudyChoice& choice) {
   fmt::print("## {} on {}\n\n{} random poses at gap {:g} % of the diagonal, seed {}\n", choice.scene.moving,
              choice.scene.fixed, poses.size(), 100.0 * choice.scene.gap, choice.seed);
 
-  // An LMD does not depend on the cutoff, only whether it counts: the largest
-  // cutoff's truth holds the others'.
+  // The cutoff only decides whether an LMD counts: the truth of the largest contains the others.
   const double largest = *std::max_element(choice.cutoffs.begin(), choice.cutoffs.end());
   const std::vector<LmdSet> all_truth = true_sets(scene, largest * diagonal, poses);
 

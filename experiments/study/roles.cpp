@@ -20,10 +20,10 @@
 #include <utility>
 #include <vector>
 
-/// What share of the processor each role of the paper's section 5 takes in a closed loop: the device loop (sum of the
-/// forces, clip, motion of the simulated device), local tracking, and the global thread (searches with the trackings after
-/// them). The device's motion is timed where it happens; the sum of forces afterwards, over the LMD sets that the run left,
-/// because the driver does not time it.
+/// Share of the processor of each role of the paper's section 5 in a closed loop: device loop (sum
+/// of forces, clip, motion of the simulated device), local tracking, and global thread (searches
+/// with the trackings after them). The device's motion is timed in the run. The driver does not
+/// time the sum of forces: that is timed afterwards, on the run's LMD sets.
 namespace lmdbench::study {
 namespace {
 
@@ -41,7 +41,7 @@ double seconds_of(Work&& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Another source of poses, whose every `render` is timed.
+/// Forwards to another source of poses and times every `render`.
 class TimedPoses final : public PoseSource {
  public:
   TimedPoses(std::unique_ptr<PoseSource> source, std::vector<double>& seconds)
@@ -56,16 +56,16 @@ class TimedPoses final : public PoseSource {
 
  private:
   std::unique_ptr<PoseSource> source_;
-  std::vector<double>& seconds_;  ///< One a frame.
+  std::vector<double>& seconds_;  ///< One per frame.
 };
 
 /// One method under one profile.
 struct RoleRow {
   std::string label;
-  std::vector<double> device, local;  ///< One a frame [s].
-  double force = 0.0;   ///< Of the device loop what sums and clips the forces; the rest moves the device [s].
-  double global = 0.0;  ///< Sum over the run [s].
-  double seconds = 0.0;  ///< Of haptics.
+  std::vector<double> device, local;  ///< One per frame [s].
+  double force = 0.0;                 ///< Sums and clips forces, part of `device` [s].
+  double global = 0.0;                ///< Sum over the run [s].
+  double seconds = 0.0;               ///< Simulated time.
   std::int64_t frames_with_force = 0;
 };
 

@@ -24,9 +24,9 @@
 #include <memory>
 #include <vector>
 
-/// How run time and work grow with the number of triangles at a fixed contact, and with cutoff and gap at a
-/// fixed mesh. Markdown on standard output, every pose's numbers as JSON in a file
-/// (scripts/figures/scaling.py draws it). Exit code 1 when certified breaks a promise.
+/// How run time and work grow with the number of triangles at a fixed contact, and with cutoff and
+/// gap on a fixed mesh. Markdown on standard output, every pose's numbers as JSON in a file (drawn
+/// by scripts/figures/scaling.py). Exit code 1 when certified breaks a promise.
 namespace lmdbench::scaling {
 namespace {
 
@@ -45,7 +45,7 @@ struct ScalingChoice {
   std::string json;
 };
 
-/// A mesh of a study: one of the manifest, cut finer.
+/// A mesh of the manifest, subdivided.
 struct MeshChoice {
   std::string mesh;
   int subdivisions = 0;
@@ -54,7 +54,7 @@ struct MeshChoice {
   }
 };
 
-/// A setting that is measured. Lengths are shares of the diagonal.
+/// A measured setting. Lengths are shares of the diagonal.
 struct Point {
   MeshChoice moving, fixed;
   double gap = 0.0, cutoff = 0.0;
@@ -64,8 +64,8 @@ struct Study {
   std::string name;
   std::string about;
   std::vector<Point> points;
-  bool same_surface = false;  ///< All points share the poses of the first one.
-  bool large = false;         ///< Needs meshes that are built only where they are named.
+  bool same_surface = false;  ///< All points use the poses of the first one.
+  bool large = false;         ///< Needs meshes that are built only on request.
 };
 
 std::vector<Study> all_studies(const ScalingChoice& choice) {
@@ -116,7 +116,7 @@ nlohmann::json to_json(const BuildCost& cost, std::size_t triangles) {
           {"features_per_triangle", static_cast<double>(cost.features) / count}};
 }
 
-/// Bodies of a study's meshes, with what their making took. Two neighbouring points often share one.
+/// Bodies of a study's meshes and the cost to make them. Neighbouring points often share one.
 class Bodies {
  public:
   explicit Bodies(const ScalingChoice& choice) : choice_(choice) {}
@@ -180,7 +180,7 @@ void print_row(const Point& point, const Scene& scene, const Measurement& measur
   std::fflush(stdout);
 }
 
-/// Slope of the log of a series' median over the log of the moving mesh's triangles, by least squares.
+/// Exponent of a series' median over the moving mesh's triangles, by least squares of logarithms.
 double slope(const nlohmann::json& points, const std::string& name) {
   std::vector<double> triangles, medians;
   for (const auto& point : points) {
@@ -228,7 +228,7 @@ nlohmann::json measure_study(const Study& study, const ScalingChoice& choice, Bo
       entry["methods"][series.name] = to_json(series);
       if (series.objection.empty()) continue;
       fmt::print(stderr, "wrong: {}: {}\n", series.name, series.objection);
-      // FCL is a peer: what it gets wrong is told, but no failure of this program.
+      // FCL is a peer: its errors are reported, but this program does not fail by them.
       if (series.name.starts_with("certified")) kept_promises = false;
     }
     result["points"].push_back(entry);

@@ -17,7 +17,7 @@
 #include <tuple>
 #include <vector>
 
-/// Raw runs of the stability maps, a JSON object a line; scripts/figures/stability_map.py makes tables and figures of them.
+/// Runs of the stability maps, one JSON object a line, for scripts/figures/stability_map.py.
 namespace lmdbench::study {
 namespace {
 
@@ -31,7 +31,7 @@ struct StabilityChoice {
 /// Which run it is: scene, method, profile, age, stiffness, seed.
 using RunKey = std::tuple<std::string, std::string, std::string, std::int64_t, double, std::int64_t>;
 
-/// Runs of an earlier, interrupted study.
+/// Runs that an interrupted study has finished.
 std::set<RunKey> read_known(const std::string& file) {
   std::set<RunKey> known;
   if (file.empty()) return known;
@@ -59,7 +59,7 @@ int map(const StabilityChoice& choice) {
         experiment, choice.grid,
         [&](const StabilityMapRun& run) {
           fmt::print("{}\n", stability_map_json(experiment.name, run));
-          std::fflush(stdout);  // what is made stays when the rest is interrupted
+          std::fflush(stdout);  // keeps the line if the rest is interrupted
           return true;
         },
         [&](const StabilityMapRun& run) {

@@ -10,17 +10,17 @@ namespace CLI {
 class App;
 }
 
-/// One file a subcommand of lmdbench-study.
+/// Each subcommand of lmdbench-study has one file.
 namespace lmdbench::study {
 
-/// What the chosen subcommand does once the command line is read.
+/// The work of the chosen subcommand, after the command line is read.
 struct Run {
   std::function<int()> work;  ///< Returns the exit code.
-  /// Command lines that do the same work bit by bit, where the study falls into pieces (pieces.h).
+  /// Command lines that do the same work to the bit, if the study has pieces (pieces.h).
   std::function<std::vector<std::vector<std::string>>()> pieces;
 };
 
-/// Each adds its subcommand to `app`, which sets `chosen` when it is named; `chosen` must outlive the parsing.
+/// Each adds its subcommand to `app`; naming it sets `chosen`, which must outlive the parsing.
 void add_recall(CLI::App& app, Run& chosen);
 void add_completeness(CLI::App& app, Run& chosen);
 void add_continuous_force(CLI::App& app, Run& chosen);

@@ -21,9 +21,9 @@
 #include <memory>
 #include <numeric>
 
-/// What a world of many instances costs and whether `certified` is complete in it: frames among 1 to 10,000 instances of one mesh at the
-/// same contact, memory and preparation, ten kinds of worlds against `exhaustive`, the broad phases that one could take, and piles of
-/// moving spheres. Exit code 1 when a set is wrong.
+/// Cost and completeness of `certified` in a world of many instances: frames among 1 to 10,000 of
+/// one mesh at the same contact, memory and preparation, ten kinds of worlds against `exhaustive`,
+/// several broad phases, piles of moving spheres. Exit code 1 when a set is wrong.
 namespace lmdbench::study {
 namespace {
 
@@ -32,7 +32,7 @@ struct WorldsChoice {
   std::filesystem::path meshes = "meshes";
   double diagonal = 0.15, cutoff = 0.005;
   std::size_t frames = 1500, world_frames = 1000, phase_frames = 2000;
-  std::vector<std::string> worlds;  ///< Whose completeness is judged; all where none is named.
+  std::vector<std::string> worlds;  ///< Whose completeness is judged; empty: all.
   std::vector<double> world_cutoffs = {0.005, 0.05, 0.3}, slacks = {0.05, 0.1, 0.25, 0.5, 1.0};
   worlds::CostChoice cost;
   worlds::PileChoice pile;

@@ -11,13 +11,13 @@
 
 namespace lmdbench::experiments {
 
-/// A mesh of the manifest or a mesh file (see `resolve_mesh`), its bounding box centred on the origin and
-/// scaled to the given diagonal [m].
+/// A mesh of the manifest or a mesh file (see `resolve_mesh`), with its bounding box centred on the
+/// origin and scaled to the given diagonal [m].
 std::shared_ptr<const Body> load_body(const std::string& mesh, const std::filesystem::path& meshes,
                                       double diagonal);
 
-/// What all programs of this folder take from the command line for a scene of two bodies. Lengths are shares
-/// of the moving body's diagonal, but for the diagonal itself.
+/// Options of all programs here for a scene of two bodies. Lengths are shares of the moving body's
+/// diagonal, except for the diagonal itself.
 struct SceneChoice {
   std::string moving = "bunny-16k";
   std::string fixed = "bunny-16k";

@@ -6,8 +6,8 @@
 
 namespace lmdbench::experiments {
 
-/// What a stored result needs beside its numbers: program version, commit, compiler and flags, processor and
-/// load ("build" and "machine").
+/// Context of a stored result: program version, commit, compiler and flags, processor and load
+/// ("build" and "machine").
 nlohmann::json run_context();
 
 }  // namespace lmdbench::experiments

@@ -14,7 +14,7 @@
 
 namespace lmdbench::experiments {
 
-/// Ground truth at each pose.
+/// True LMD set at each pose.
 using Truth = std::vector<LmdSet>;
 
 Truth exhaustive_truth(const Scene& scene, const std::vector<Pose>& poses);
@@ -22,21 +22,20 @@ Truth exhaustive_truth(const Scene& scene, const std::vector<Pose>& poses);
 /// Minimum distances closer than this, relative, are equal: FCL's own tolerance in this project.
 inline constexpr double MINIMUM_TOLERANCE = 1e-6;
 
-/// The error that the time of an implementation bought, over all poses.
+/// The error of an implementation over all poses, reported beside its time.
 struct LmdError {
-  std::string objection;           ///< Why it must not be timed; empty when it does what it promises.
-  Agreement same;                  ///< Same features; empty counts for peers without an LMD set.
+  std::string objection;           ///< Why it must not be timed, or empty.
+  Agreement same;                  ///< Same features; no counts for peers without an LMD set.
   Agreement neighbours;            ///< Neighbouring features count.
-  std::size_t minimum_missed = 0;  ///< Poses where the minimum distance is not the true one.
-  /// Largest relative overestimate of the minimum distance; infinite where nothing was
-  /// found though there was an LMD.
+  std::size_t minimum_missed = 0;  ///< Poses where the minimum distance is wrong.
+  /// Largest relative overestimate of the minimum distance; infinite where an LMD exists and
+  /// nothing was found.
   double worst_minimum_error = 0.0;
 
-  /// Adds one pose. A pose without a true LMD within the cutoff says nothing about the minimum distance and
-  /// is left out of it.
+  /// Adds one pose. Its minimum distance is not judged without a true LMD within the cutoff.
   /// @param where   names the pose in objections
-  /// @param lmds    what was found; null for peers that find a nearest pair only
-  /// @param minimum smallest distance that was found [m]; NaN for none
+  /// @param lmds    the set found; null for peers that find a nearest pair only
+  /// @param minimum smallest distance found [m]; NaN for none
   void add(Promise promise, const std::string& where, const Scene& scene, const LmdSet& truth,
            const LmdSet* lmds, double minimum);
 };

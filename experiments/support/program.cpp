@@ -46,7 +46,7 @@ int report_errors(const std::function<int()>& run) {
 
 namespace {
 
-/// Since the command line was read.
+/// Runs since the command line was read.
 const NodeWatch& watch() {
   static const NodeWatch since_start(true);
   return since_start;
@@ -60,7 +60,7 @@ bool& reports_name_node() {
 }
 
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
-  // What a command checks while it is read throws our errors, too.
+  // Checks of a command while it is read throw our errors, too.
   return report_errors([&] {
     try {
       app.parse(argc, argv);

@@ -17,43 +17,43 @@ namespace CLI {
 class App;
 }
 
-/// What the study programs of experiments/ share: options, error reports, result files.
+/// Shared by the study programs of experiments/: options, error reports, result files.
 namespace lmdbench::experiments {
 
-/// Poses and cutoffs at which a study looks at a scene.
+/// Poses and cutoffs of a study.
 struct StudyChoice {
   SceneChoice scene;
   std::vector<double> cutoffs = {0.005, 0.02, 0.05};  ///< Shares of the diagonal.
   std::size_t poses = 1000;
   std::uint64_t seed = 1;
-  std::string json;  ///< File that the tables are written to as well; empty for none.
+  std::string json;  ///< File for the tables as JSON; empty for none.
 };
 
-/// --moving and --fixed.
+/// Adds --moving and --fixed.
 void add_mesh_options(CLI::App& app, SceneChoice& scene);
 
-/// --meshes, --diagonal and --gap.
+/// Adds --meshes, --diagonal and --gap.
 void add_scene_options(CLI::App& app, SceneChoice& scene);
 
-/// Those of a scene, --cutoff, --poses, --seed and --json. `choice` holds the defaults.
+/// Adds those of a scene, --cutoff, --poses, --seed and --json. `choice` holds the defaults.
 void add_study_options(CLI::App& app, StudyChoice& choice);
 
-/// Tells errors on standard error.
-/// @return what `run` returns, or the exit code of its error (error.h)
+/// Reports errors on standard error.
+/// @return the result of `run`, or the exit code of its error (error.h)
 int report_errors(const std::function<int()>& run);
 
 /// Parses the command line and runs the study.
 /// @return the exit code, as `report_errors`
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
-/// Whether reports say on which node they were made and beside what (`NodeWatch`, from now on), as "where". For command lines.
+/// Whether reports get a "where": their node and other load on it (`NodeWatch`, from this call on).
 bool& reports_name_node();
 
-/// Writes the report, so that the file is the old or the new one at any time; nothing when no file is named.
+/// Writes the report: the file is the old or the new one at any time. Nothing without a file name.
 /// @throws Error when it cannot be written
 void write_report(const std::string& file, const nlohmann::json& report);
 
-/// Recall and precision under the names of results/README.md, with the counts that they are ratios of.
+/// Recall and precision with the names of results/README.md, and the counts of these ratios.
 nlohmann::json error_json(const Agreement& same, const Agreement& neighbours);
 
 }  // namespace lmdbench::experiments

@@ -14,9 +14,9 @@
 
 namespace lmdbench::experiments {
 
-/// Random numbers that are the same with every standard library and on every processor: the engine is
-/// specified to the bit, the standard's distributions are not, and sines differ with the instruction set, so
-/// the mappings here use nothing but correctly rounded operations.
+/// Random numbers, the same with every standard library and processor. The engine is specified to
+/// the bit; the standard's distributions are not, and sines differ with the instruction set. So the
+/// mappings here use only correctly rounded operations.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -25,7 +25,7 @@ class Random {
   double uniform() { return uniform_number(engine_); }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /// One of 0 to count - 1.
+  /// Uniform in 0 to count - 1.
   std::size_t index(std::size_t count) {
     return static_cast<std::size_t>(uniform() * static_cast<double>(count));
   }

@@ -9,9 +9,9 @@
 
 namespace lmdbench::experiments {
 
-/// Leaves both meshes of a scene and a pose as files that `lmdbench query` reads.
-/// @param folder is made where there is none
-/// @return the command that answers
+/// Writes both meshes of a scene and a pose as files that `lmdbench query` reads.
+/// @param folder is created if it is missing
+/// @return the command that queries them
 std::string write_scene(const Scene& scene, const Pose& X_WM, const std::string& method,
                         const std::filesystem::path& folder);
 

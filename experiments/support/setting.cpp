@@ -20,8 +20,7 @@ std::vector<Setting> grazing_settings(const SceneChoice& choice, const std::vect
   Scene scene = load_scene(choice);
   const std::vector<Pose> poses =
       grazing_poses(*scene.moving, *scene.fixed.at(0), choice.gap * choice.diagonal, pose_count, SEED);
-  // An LMD does not depend on the cutoff, only whether it counts: the largest
-  // cutoff's truth holds the others'.
+  // The cutoff only decides whether an LMD counts: the truth of the largest contains the others.
   scene.cutoff = *std::max_element(cutoffs.begin(), cutoffs.end()) * choice.diagonal;
   const Truth all = exhaustive_truth(scene, poses);
   std::vector<Setting> settings;

@@ -10,15 +10,15 @@
 
 namespace lmdbench::experiments {
 
-/// A scene at unrelated poses, with the truth there.
+/// A scene at unrelated poses, with the true LMD sets.
 struct Setting {
-  std::string name;  ///< Of the cutoff: "0.5%".
+  std::string name;  ///< Of the cutoff, for example "0.5%".
   Scene scene;
   std::vector<Pose> poses;
   Truth truth;
 };
 
-/// Random grazing poses of a scene, one setting a cutoff; the same in every run.
+/// Random grazing poses of a scene, one setting per cutoff; the same in every run.
 /// @param cutoffs shares of the diagonal
 std::vector<Setting> grazing_settings(const SceneChoice& choice, const std::vector<double>& cutoffs,
                                       std::size_t pose_count);

@@ -36,7 +36,7 @@ Real length(const Vector& a) {
 
 using Corners = std::array<Vector, 3>;
 
-/// Part of the largest coordinate below which an altitude is nothing.
+/// Share of the largest coordinate below which an altitude counts as zero.
 constexpr Real FLAT = 1e-18L;
 
 Real largest(const Corners& t) {
@@ -59,8 +59,8 @@ Real to_segment(const Vector& p, const Vector& a, const Vector& b) {
   return length(p - (a + s * d));
 }
 
-/// Distance of the first segment's point nearest to the second line from the second segment: always feasible,
-/// and the minimum where both feet of the common perpendicular are inside.
+/// Distance of the first segment's point nearest to the second line from the second segment: always
+/// feasible, and the minimum where both feet of the common perpendicular are inside.
 Real between_interiors(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1) {
   const Vector u = a1 - a0, v = b1 - b0, w = b0 - a0;
   const Vector n = cross(u, v);
@@ -70,7 +70,7 @@ Real between_interiors(const Vector& a0, const Vector& a1, const Vector& b0, con
   return to_segment(a0 + s * u, b0, b1);
 }
 
-/// Weights of the corners for the projection of p on the plane.
+/// Whether p projects on the inside of the triangle, by weights of the corners.
 bool projects_inside(const Vector& p, const Corners& t, const Vector& n) {
   for (int k = 0; k < 3; ++k) {
     if (dot(cross(t[(k + 1) % 3] - t[k], p - t[k]), n) < 0) return false;
@@ -86,12 +86,12 @@ Real corners_and_edges_to_face(const Corners& from, const Corners& t) {
     if (length(t[(k + 1) % 3] - t[k]) > length(t[(longest + 1) % 3] - t[longest])) longest = k;
   }
   const Vector e = t[(longest + 1) % 3] - t[longest];
-  // The normal of a flatter triangle is rounding, and its face is no farther from its edges than this.
+  // A flatter triangle's normal is rounding; its face is no farther from its edges than this.
   if (!(length_n > FLAT * largest(t) * length(e))) return INFINITY;
   Real best = INFINITY;
   std::array<Real, 3> height;
-  // Heights are measured from the foot on the longest edge: a needle's normal may turn about that edge by its
-  // rounding, which tilts the plane only across the needle, where there is nothing of it.
+  // Heights are measured from the foot on the longest edge. Rounding may turn a needle's normal
+  // about that edge; this tilts the plane only across the needle, where it has no extent.
   for (int k = 0; k < 3; ++k) {
     const Vector r = from[k] - t[longest];
     height[k] = dot(r - dot(r, e) / dot(e, e) * e, n) / length_n;

@@ -15,7 +15,7 @@ double log_uniform(Random& random, double low, double high) {
   int octaves = 0;
   std::frexp(high / low, &octaves);
   for (;;) {
-    // Linear within an octave: near enough, and the same bits everywhere, which std::exp does not promise.
+    // Linear within an octave: near enough, and the same bits everywhere, unlike std::exp.
     const double octave = 0.5 * (uniform_coordinate(random) + 1.0) * octaves;
     const double value = low * std::ldexp(1.0 + octave - std::floor(octave), static_cast<int>(octave));
     if (value <= high) return value;

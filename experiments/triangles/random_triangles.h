@@ -6,29 +6,29 @@
 
 #include <random>
 
-/// Random shapes for the families, the same on every platform: they use the engine's bits and correctly
-/// rounded operations only, no standard distribution and no transcendental function.
+/// Random shapes for the families, the same on every platform: only the engine's bits and correctly
+/// rounded operations, no standard distribution, no transcendental function.
 namespace lmdbench::testing {
 
 using Random = std::mt19937_64;
 
 /// Uniform in [-1, 1).
 double uniform_coordinate(Random& random);
-/// Uniform in logarithm between two positive bounds, nearly.
+/// Nearly log-uniform between two positive bounds.
 double log_uniform(Random& random, double low, double high);
-/// One of `count` numbers from 0.
+/// One of the numbers 0 to `count` - 1.
 int random_index(Random& random, int count);
 bool coin(Random& random);
 
 /// Uniform in the cube [-1, 1)^3.
 Vec3 random_point(Random& random);
-/// Of unit length, uniform over all.
+/// Uniform on the unit sphere.
 Vec3 random_unit_vector(Random& random);
-/// A rotation, uniform over all.
+/// Uniform over all rotations.
 Mat3 random_rotation_matrix(Random& random);
 /// Coordinates are integers from 0 to `extent`.
 Vec3 lattice_point(Random& random, int extent);
-/// The point with every coordinate moved by up to so many units in the last place.
+/// Moves every coordinate by up to `largest_step` units in the last place.
 Vec3 nudged(Random& random, Vec3 p, int largest_step);
 
 /// Three random points.

@@ -56,7 +56,7 @@ TrianglePair coplanar(Random& random) {
   pair.b = on_lattice ? lattice_triangle(random, 5) : random_triangle(random);
   for (int i = 0; i < 3; ++i) pair.a[i][2] = pair.b[i][2] = 0.0;
   if (random_index(random, 3) == 0) {
-    for (Vec3& corner : pair.b) corner = 0.3 * corner + 0.3 * (pair.a[0] + pair.a[1]);  // often contained
+    for (Vec3& corner : pair.b) corner = 0.3 * corner + 0.3 * (pair.a[0] + pair.a[1]);  // contained
   }
   return pair;
 }
@@ -139,7 +139,7 @@ TrianglePair needles_and_caps(Random& random) {
   TrianglePair pair = uniform_pair(random);
   for (Triangle* t : {&pair.a, &pair.b}) {
     const double thickness = log_uniform(random, 1e-8, 1e-2);
-    const double along = coin(random) ? 0.5 * (uniform_coordinate(random) + 1.0) : 0.0;  // a cap or a needle
+    const double along = coin(random) ? 0.5 * (uniform_coordinate(random) + 1.0) : 0.0;  // needle
     (*t)[2] = (*t)[0] + along * ((*t)[1] - (*t)[0]) + thickness * random_point(random);
     if (coin(random)) break;
   }
@@ -242,10 +242,10 @@ TrianglePair extreme_magnitudes(Random& random) {
   return transformed(pair, std::ldexp(1.0, exponent), Mat3::Identity(), Vec3::Zero());
 }
 
-/// Coordinates from the issue trackers of others, moved by a few units in the last place.
+/// Coordinates from issue trackers of other projects, moved by a few units in the last place.
 TrianglePair published_failures(Random& random) {
-  // PQP issue 4; parry issue 76; a forum thread on nearly parallel segments that D. Eberly answered (each
-  // segment with a third corner); ConvexBodyProximityQueries issue 17.
+  // PQP issue 4; parry issue 76; a forum thread on nearly parallel segments that D. Eberly answered
+  // (a third corner each); ConvexBodyProximityQueries issue 17.
   static const std::array<TrianglePair, 4> PUBLISHED{{
       {{Vec3(8000.0000000000036, 6817.7672478170962, 571.00166381103077),
         Vec3(7500.0000000000009, 6817.7672478170962, 571.00166381103077),
@@ -289,7 +289,7 @@ TrianglePair rigid_motions(Random& random) {
   return transformed(pair, 1.0, random_rotation_matrix(random), 10.0 * random_point(random));
 }
 
-/// Triangles as they face each other across a gap between two meshes: well shaped, nearly parallel.
+/// Triangles that face each other across a gap of two meshes: well shaped, nearly parallel.
 TrianglePair facing_mesh_triangles(Random& random) {
   const Triangle regular{Vec3(1, 0, 0), Vec3(-0.5, std::sqrt(0.75), 0), Vec3(-0.5, -std::sqrt(0.75), 0)};
   const auto piece = [&](double height) {

@@ -10,8 +10,8 @@
 
 namespace lmdbench::testing {
 
-/// A family of triangle pairs that some published distance routine gets wrong, or could. The generator is
-/// deterministic given the engine's state, on every platform.
+/// A family of triangle pairs that some published distance routine gets wrong, or could. The
+/// generator depends on the engine's state alone, on every platform.
 struct TriangleFamily {
   std::string_view name;
   TrianglePair (*generate)(Random& random);

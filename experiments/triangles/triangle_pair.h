@@ -15,11 +15,10 @@ struct TrianglePair {
 /// The pair with every corner scaled, rotated and moved.
 TrianglePair transformed(const TrianglePair& pair, double scale, const Mat3& rotation, const Vec3& offset);
 
-/// The pair with the corners of both triangles reordered (0 <= order < 36) and, for
-/// order >= 36, swapped (< 72).
+/// The pair with both triangles' corners reordered (0 <= order < 36) and, from 36 to 71, swapped.
 TrianglePair reordered(const TrianglePair& pair, int order);
 
-/// Largest absolute coordinate of the pair: the scale that errors are relative to.
+/// Largest absolute coordinate of the pair, the scale of errors.
 double magnitude(const TrianglePair& pair);
 
 /// The pair as C++ that pastes back into a test.

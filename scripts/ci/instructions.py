@@ -10,7 +10,7 @@ import shutil
 import subprocess
 
 FUNCTION = re.compile(r"^ *([0-9,]+) .*:lmdbench::([A-Za-z]+::(?:search|track))\(lmdbench::Pose", re.MULTILINE)
-# One repetition counts the same as many.
+# One repetition has the same counts as many.
 SHORTENED = ("/driver/repetitions=1", "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0", "/frames=400")
 
 
@@ -21,7 +21,7 @@ class NotCounted(Exception):
 def count(program, scene, folder, name, root):
     """{"Method::function": instructions} of one run; leaves NAME.log and NAME.callgrind in `folder`."""
     log, counts = os.path.join(folder, name + ".log"), os.path.join(folder, name + ".callgrind")
-    # Address randomisation off: sizes of hash tables and alignments are then the same, too.
+    # Without address randomisation sizes of hash tables and alignments are the same, too.
     command = ["setarch", "--addr-no-randomize", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, program, "--quiet",
                "run", *scene, *(word for pair in SHORTENED for word in ("--set", pair)), "--out", os.path.join(folder, name + ".h5")]
     with open(log, "w", encoding="utf-8") as stream:

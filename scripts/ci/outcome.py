@@ -23,9 +23,9 @@ import tables  # noqa: E402
 
 # The worst first.
 EXIT_CODES = {"no comparison": 3, "broken": 1, "changed": 1, "slower": 1, "unsure": 4, "faster": 0, "same": 0}
-NOT_JUDGED = "not judged"  # what the verdict did without
+NOT_JUDGED = "not judged"  # judgements that were left out
 OF_JUNIT = {"no comparison": "error", "broken": "error", "changed": "failure", "slower": "failure", "unsure": "skipped", NOT_JUDGED: "skipped"}
-LAST_LINES = 40  # of a log: where compilers and programs say what went wrong
+LAST_LINES = 40  # of a log: here compilers and programs report errors
 LONGEST_VALUE = 100
 NOT_OF_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd]")
 
@@ -34,18 +34,18 @@ INSTRUCTIONS = ("instructions of", "base", "candidate", "change", "verdict")
 TIMES = ("method", "stage", "base [us]", "candidate [us]", "ratio", "interval", "detectable", "verdict")
 
 Failure = collections.namedtuple("Failure", "side step message log")
-# The rule on times (regression.py): its word, why, and the (method, stage) pairs that fresh rounds confirmed as slower.
+# The verdict on times (regression.py), why, and the (method, stage) pairs confirmed as slower.
 Times = collections.namedtuple("Times", "word why confirmed")
-# A test case of junit.xml, and its rows of a table with these headings.
+# A test case of junit.xml, with its rows of a table under these headings.
 Check = collections.namedtuple("Check", "group name word message headings rows details", defaults=((), (), ""))
 
 
 @dataclasses.dataclass
 class Evidence:
     """All that is known; None for what was not looked at."""
-    failure: Failure = None  # no results, whatever else
-    other_experiment: str = None  # how the judge refused
-    answer: dict = None  # of the judge, over all rounds: `lmdbench compare --json`
+    failure: Failure = None  # why there are no results
+    other_experiment: str = None  # the judge's message
+    answer: dict = None  # of the judge over all rounds: `lmdbench compare --json`
     seconds: dict = None  # by side, method and stage: one number a process
     instructions: list = None  # (function, base, candidate)
     not_counted: str = "results differ, or --instructions 0"

@@ -40,11 +40,11 @@ import outcome
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 SUSPICION = 0.05
-# All names have one length: the place of a process' arguments moves its stack, and with it its speed.
+# Names of equal length: the length of arguments moves a process' stack, and with it its speed.
 NAMES = ("base", "null", "cand")
 ORDERS = (("base", "cand", "null"), ("base", "null", "cand"), ("cand", "base", "null"), ("cand", "null", "base"),
           ("null", "base", "cand"), ("null", "cand", "base"))
-# How `lmdbench compare` refuses results of different experiments (DIFFERENT_EXPERIMENTS of comparison/compare.h).
+# Message of `lmdbench compare` for DIFFERENT_EXPERIMENTS (comparison/compare.h).
 OTHER_EXPERIMENT = "is of another experiment than"
 
 
@@ -90,8 +90,8 @@ class Regression:
         self.run_process = run or self.subprocess_run
         self.say = say
         self.rounds = 0
-        self.confirmed = set()  # the (method, stage) pairs that are slower for sure
-        self.looks = []  # what was seen when, for studies of the rule
+        self.confirmed = set()  # (method, stage) pairs that are surely slower
+        self.looks = []  # state after each look, for studies of the rule
 
     @staticmethod
     def subprocess_run(command, environment):
@@ -109,7 +109,7 @@ class Regression:
                                          self.result(name, self.rounds)], self.environments.get(name, {}))
                 if done.returncode != 0:
                     failed["candidate" if name == "cand" else "base"] = done
-            # Where the base fails in the same round, the scene or the machine may be the reason.
+            # If the base fails in the same round, scene or machine may be the reason.
             for side in ("base", "candidate"):
                 if side in failed:
                     done = failed[side]
@@ -199,7 +199,7 @@ def gather(regression, arguments, evidence):
         files = {side: os.path.join(arguments.out, side + ".json") for side in ("base", "candidate")}
         evidence.answer = regression.against_base(0, ("--benchmark", files["candidate"], "--benchmark-base", files["base"]))
         evidence.seconds = {side: seconds(file) for side, file in files.items()}
-    except OtherExperiment as error:  # no table: nothing of two experiments can be compared
+    except OtherExperiment as error:  # no table: nothing can be compared
         evidence.other_experiment = str(error)
     except Broken as error:
         evidence.failure = outcome.Failure(error.side, "run", str(error), error.log)
@@ -232,7 +232,7 @@ def main(words=None):
         os.makedirs(os.path.dirname(programs[name]), exist_ok=True)
         shutil.copy2(program, programs[name])
     scene = [os.path.abspath(arguments.experiment)] + [word for pair in arguments.set for word in ("--set", pair)]
-    # The candidate's copy by its own name, so that a judge that fails is known for the candidate.
+    # A copy with a name of its own: if the judge fails, the candidate is at fault.
     own = not arguments.judge or os.path.samefile(arguments.judge, arguments.candidate)
     regression = Regression(programs, programs["cand"] if own else os.path.abspath(arguments.judge), scene, results,
                             arguments.threshold, arguments.allow, say=lambda text: print(text, file=sys.stderr))

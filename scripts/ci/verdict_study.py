@@ -31,15 +31,15 @@ import regression  # noqa: E402
 import tables  # noqa: E402
 
 AGAIN = "again"
-# Every method has its turn, every stage of the improved one too.
+# Every method has its turn, and every stage of the improved one.
 STAGES = ("improved:search", "certified:local update", "original:search", "improved:reduction", "improved:local update",
           "original:local update")
-# A tenth of a second on an idle machine: probes and free flight left out, certified beside the paper's two methods.
+# 0.1 s on an idle machine: no probes, no free flight; certified and the paper's two methods.
 SCENE = (os.path.join(regression.ROOT, "experiments", "shapes.json"), "--set", "/probes/truth/stride_frames=0", "--set",
          "/probes/fcl/stride_frames=0", "--set", "/frames=400", "--set", "/driver/repetitions=4", "--set",
          '/methods/-={"name":"certified","force_law":"exponential"}')
 VARIABLE = "LMDBENCH_PLANTED"
-LEAST_DRAWN = 20  # comparisons of the base with itself, below which a share of them is no curve
+LEAST_DRAWN = 20  # comparisons of the base with itself; fewer give no curve
 
 
 def planted(variant, index):
@@ -52,7 +52,7 @@ def planted(variant, index):
 
 
 def one_comparison(arguments, variant, index):
-    results = tempfile.mkdtemp(prefix="verdicts-")  # TMPDIR=/dev/shm: no process waits for a disk
+    results = tempfile.mkdtemp(prefix="verdicts-")  # TMPDIR=/dev/shm: no waiting for a disk
     programs = {}
     for name in regression.NAMES:
         programs[name] = os.path.join(os.path.abspath(arguments.out), "bin", name, "lmdbench")

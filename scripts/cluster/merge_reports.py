@@ -14,9 +14,9 @@ import os
 import sys
 
 SUMS = ("wrong_poses",)
-# Of the machine and the hour: the first piece speaks, and "pieces" keeps each one's own.
+# Facts of a machine and hour: those of the first piece; "pieces" keeps each one's own.
 CIRCUMSTANCES = ("context", "where")
-# What several pieces may have made alike, with times of their own.
+# Several pieces may have these alike, but with times of their own.
 FIRST_STANDS = ("builds",)
 
 

@@ -28,7 +28,7 @@ def _name(*parts):
 def _ask(command):
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
-        raise SystemExit(done.returncode)  # the program has said why
+        raise SystemExit(done.returncode)  # the program has told the reason
     return json.loads(done.stdout)
 
 

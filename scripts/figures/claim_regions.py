@@ -21,8 +21,8 @@ from region_sets import k10, k11, k12
 from sweep_results import Sweep, commit_of, is_sweep
 from tables import table, write_text
 
-# Of each claim what judges it, the first of the lists that is there whole. A budget sweep varies the search period alone,
-# and a claim of hard or soft contact takes its scene.
+# The evidence of each claim: the first of the lists of which all exists. A budget sweep varies the
+# search period alone; a claim of hard or soft contact takes its scene of it.
 CLAIMS = (
     ("K1", "Hard: the improved force is stable, the original's jumps between zero and strong", k1, (("claim-k1",), ("budget/bunny-hard",))),
     ("K2", "Hard: the working set holds under 10 LMDs", k2, (("claim-k1",), ("budget/bunny-hard",))),

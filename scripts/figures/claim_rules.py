@@ -24,7 +24,7 @@ class Claim:
     measure: str  # our reading of the words, with the rule
     result: str  # our numbers in a sentence
     setting: str  # whether the claim holds in these runs: HOLDS, FAILS, OPEN or NOT_MEASURED
-    because: str = ""  # which of its parts do not, or are undecided
+    because: str = ""  # parts that fail or are undecided
     numbers: dict = field(default_factory=dict)
     verdict: str = NOT_MEASURED  # over all settings
     reason: str = ""
@@ -170,7 +170,7 @@ def k5(runs):
 
     results = [*runs.pair, *runs.others]
     text, _, numbers = of_each(results, look)
-    found = [look(result)[2] for result in results]  # two of them may have one name
+    found = [look(result)[2] for result in results]  # names may be equal
     parts = {"up to about twenty times (10 to 40)": 10 <= max(one["reduction_ratio_maximum"] for one in found) <= 40}
     thin, dense = (end(one["triangles"] for one in found) for end in (min, max))
     if dense < 2 * thin:
@@ -276,8 +276,8 @@ def k10(runs):
     return "; ".join(texts) + ".", parts, numbers, "" if runs.unequal else "as far as measured; no result on large or unequal triangles was given"
 
 
-# Of each claim: the paper's words, our measure with the rule, and what looks at runs. That gives our numbers in a sentence, whether each
-# part of the claim holds (no part: not measured), the numbers, and what to say where all parts hold.
+# For each claim: the paper's words, our measure with its rule, and a function of runs. It returns
+# numbers in a sentence, whether each part holds (none: not measured), numbers, words if all hold.
 RULES = {
     "K1": ("Hard: our method shows good force stability, the original jumps quickly from zero to strong force and back (6.1).",
            "Changes within one frame (1 ms at 1 kHz) between below 5 % and above 50 % of F_max, per second in contact: at "

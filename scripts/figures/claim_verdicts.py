@@ -9,7 +9,7 @@ from lmdbench_results import ResultError
 
 VERDICTS = "claim-verdicts.json"
 NOT_MEASURED = "not measured"
-# The one that the project keeps; scripts/claims.sh makes another.
+# The project's own; scripts/claims.sh makes another one.
 REFERENCE = Path(__file__).resolve().parents[2] / "results" / "reference" / VERDICTS
 
 

@@ -24,7 +24,7 @@ FRICTIONS = [
 PERIOD_S = 1e-3
 TOLERANCE = 1e-3
 MOST_SECONDS = 30  # of processor time
-WALL_SECONDS = 900  # of the clock, so that a machine under load has an answer, too
+WALL_SECONDS = 900  # elapsed; enough for a busy machine
 
 
 def closed_form(mass, damping):
@@ -45,7 +45,7 @@ def search(program, experiment, device, settings):
     begin = processor_seconds()
     done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     seconds = processor_seconds() - begin
-    if done.returncode not in (0, 3):  # 3: no answer, with its reason in the row
+    if done.returncode not in (0, 3):  # 3: no answer, the row tells the reason
         raise SystemExit(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
     plan = subprocess.run([program, "plan", experiment, "--json", "--set", f"/device={device}", *settings], capture_output=True,
                           text=True, check=True, stdin=subprocess.DEVNULL)

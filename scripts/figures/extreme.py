@@ -15,18 +15,18 @@ import numpy as np
 from lmdbench_results import EXIT_CHECK_FAILED, Result, run_script, truth_of
 from tables import shown, table_text, write_text
 
-COMPLETE_SET = "complete-set"  # what a method promises that must have the true set
+COMPLETE_SET = "complete-set"  # promise of a method with the true set
 HEADINGS = ("scene", "method", "contact frames", "LMDs", "recall [%]", "precision [%]", "frames wrong",
             "distance error [cutoff]", "force error [F_max]", "force jump [F_max]", "true jump", "not a number",
             "median, p99, largest frame [us]", "frames above 1 ms", "stands")
 NOT_MEASURED = "-"
-# Values that must be numbers in every frame, and those that must be in every frame with an LMD.
+# Values that must be numbers in every frame, and in every frame with an LMD.
 ALWAYS = ("force", "torque", "effective_stiffness")
 WITH_LMDS = ("minimum_distance",)
-DEADLINE_S = 1e-3  # of a haptic frame
-# A method stands in a scene when it has nearly the whole true set and its force never is far from the true one.
+DEADLINE_S = 1e-3  # one haptic frame
+# A method passes a scene if it has nearly all true LMDs and its force is never far off.
 STANDS_RECALL = 0.99
-STANDS_FORCE = 0.25  # of F_max: what a hand feels as a jerk (JUMP_SHARE of summary.py)
+STANDS_FORCE = 0.25  # of F_max: a hand feels that as a jerk (JUMP_SHARE of summary.py)
 
 
 def not_a_number(method):

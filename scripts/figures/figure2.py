@@ -16,7 +16,7 @@ from mesh_drawing import PATCHES, PLAIN, draw_cone, draw_triangles, frame, view_
 import matplotlib.pyplot as plt
 
 LEVELS = (8,)
-WANTED_HALF_ANGLE = np.radians(40.0)  # wide enough to see, narrow enough to be drawn as a cone
+WANTED_HALF_ANGLE = np.radians(40.0)  # wide enough to see, and still a cone
 TILT_DEG = 62.0
 
 

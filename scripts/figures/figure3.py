@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 
 LEVELS = (2, 5, 8)
 VIEW = view_onto(np.array([0.25, 0.25, 1.0]))
-CONES_FACE = 0.15  # cones whose axes point away from the reader by more than this cosine stand behind the mesh
+CONES_FACE = 0.15  # cosine; cones that point away by more are behind the mesh
 
 
 def draw(anatomy, levels):

@@ -34,7 +34,7 @@ def draw_space(axes, case):
     """Both triangles and the shadow of A on the plane of B, seen along B's plane."""
     a, b = np.array(case["moving"]["corners"]), np.array(case["fixed"]["corners"])
     normal = np.array(case["fixed"]["face_normal"])
-    view = view_towards(unit(normal))[[1, 0, 2]] * [[1], [-1], [1]]  # the plane of B lies flat, A comes from above
+    view = view_towards(unit(normal))[[1, 0, 2]] * [[1], [-1], [1]]  # B lies flat, A is above
     view = np.array([view[0], np.cos(0.35) * view[1] + np.sin(0.35) * view[2], -np.sin(0.35) * view[1] + np.cos(0.35) * view[2]])
     if np.mean((a - b[0]) @ view.T, axis=0)[1] < np.mean((b - b[0]) @ view.T, axis=0)[1]:
         view = -view * [[1], [1], [-1]]

@@ -23,15 +23,15 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
-RECALL_BINS = 40  # a frame has so few LMDs that its own recall is mostly 0 or 1
-# Truth is a wide pale band: where a method is right, its line runs inside.
+RECALL_BINS = 40  # the recall of one frame is mostly 0 or 1
+# Truth is a wide pale band; the line of a method that is right is inside it.
 TRUTH_WIDTH = 2.6
-# A time axis ends above this quantile: what a busy machine adds to single samples must not flatten the rest. What is
-# cut off is told with its number and largest value.
+# A time axis ends above this quantile, so that single samples of a busy machine do not flatten the
+# rest. The figure tells how many are cut off, and the largest.
 AXIS_QUANTILE = 0.995
 AXIS_MARGIN = 1.25
-NOTABLE_EXCESS = 1.5  # what exceeds the axis by less widens it instead
-SHORTEST_UPDATE_US = 0.1  # lower end of its axis: below lies the update of an empty set
+NOTABLE_EXCESS = 1.5  # a smaller excess widens the axis
+SHORTEST_UPDATE_US = 0.1  # lower end of its axis; below are updates of empty sets
 HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
 MOST_COLUMNS = 4
@@ -44,7 +44,7 @@ class Column:
     def __init__(self, result, methods):
         self.result, self.time = result, result.time
         self.methods = methods
-        # Under several profiles the column's title names the profile, so that a method looks the same in all columns.
+        # Under several profiles the column's title has the profile: names are equal in all columns.
         self.names = {method.label: method.label.removesuffix(f"-{method.profile}") if method.profile else method.label for method in methods}
         colours = style.colours_of([SimpleNamespace(label=self.names[method.label], name=method.name, order=method.order) for method in methods])
         self.look = {}
@@ -128,7 +128,7 @@ def plot_counts(axes, column):
     for method in column.methods:
         if method.reduces:
             axes.plot(column.time, method.read("lmd_count_before_reduction"), color=style.SKY, lw=0.8, zorder=1)
-    # Linear up to 1, so that no LMD at all has its place; logarithmic above.
+    # Linear up to 1, so that 0 LMDs can be drawn; logarithmic above.
     axes.set_yscale("symlog", linthresh=1, linscale=0.5)
     highest = max(1.0, *(float(np.nanmax(line.get_ydata(), initial=0.0)) for line in axes.lines))
     axes.yaxis.set_major_locator(FixedLocator(count_ticks(highest)))
@@ -167,7 +167,7 @@ def plot_updates(axes, column):
     for method in column.methods:
         axes.plot(column.time, method.median_times("local_update_time") * 1e6, **{**column.look[method.label], "lw": 0.6})
     axes.set_yscale("log")
-    # As far down as the fastest method's median frame: what lies below are updates of an empty set.
+    # Down to the fastest method's median frame: below are updates of empty sets.
     medians = [float(np.nanmedian(line.get_ydata())) for line in axes.lines]
     axes.set_ylim(bottom=min(SHORTEST_UPDATE_US, 0.5 * min([value for value in medians if value > 0], default=1.0)))
     axes.yaxis.set_major_locator(LogLocator(numticks=6))
@@ -214,7 +214,7 @@ def keys_of_rows(columns):
                 searches[name] = plain
         for _, method in true_forces(column.methods):
             laws[method.force_law] = key(f"truth, {method.force_law} law", style.TRUTH_COLOURS[method.force_law], width=TRUTH_WIDTH)
-    # One method is named; the pale lines of several look alike.
+    # A single method is named; the pale lines of several look alike.
     whose = f"{reducing[0]}, " if len(set(reducing)) == 1 else "any method, "
     before, alone = ([key(whose + words, style.SKY)] if reducing else [] for words in ("before reduction", "search alone"))
     near = [key("dotted: a neighbouring feature counts, too", "#444444", ":", width=0.9)]

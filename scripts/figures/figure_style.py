@@ -13,7 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter  # noqa: E402
 
-TWO_COLUMNS_IN = 7.2  # text width of a page of two columns
+TWO_COLUMNS_IN = 7.2  # text width of a two-column page
 PNG_DPI = 300
 
 VERMILLION = "#D55E00"
@@ -26,11 +26,11 @@ BLACK = "#000000"
 YELLOW = "#F0E442"
 GREY = "#8A8A8A"
 PALE_GREY = "#C4C4C4"
-# The true set and, by force law, its force; in scripts/report/scene.js, too.
+# The true set and, by force law, its force; scripts/report/scene.js has the same.
 TRUTH = "#D9B400"
 TRUTH_COLOURS = {"linear": "#9A9A9A", "exponential": TRUTH}
 
-# Colours and lines of methods, by their place in the registry, so that a method looks the same in every figure.
+# Colours and lines by place in the registry: a method looks the same in every figure.
 METHOD_COLOURS = (VERMILLION, BLUE, GREEN, BLACK, PURPLE, ORANGE, SKY)
 METHOD_LINES = ((0, (2.6, 0.8)), "-", (0, (5, 1, 1, 1)), ":", "--", (0, (4, 1.5)), (0, (1, 1)))
 
@@ -83,7 +83,7 @@ def line_of(method):
     return METHOD_LINES[method.order % len(METHOD_LINES)]
 
 
-LONGEST_NAME = 44  # letters of a name in a key or title; files may be called anything
+LONGEST_NAME = 44  # letters in a key or title
 
 
 def shortened(name, longest=LONGEST_NAME):
@@ -126,7 +126,7 @@ def legend_within(figure, keys, left, y, loc, layouts, right=0.995):
     raise ValueError("no layout")
 
 
-MOST_LABELLED = 7  # decades of an axis; more stand over each other
+MOST_LABELLED = 7  # decades of an axis with a label
 
 
 def labelled_decades(low, high):
@@ -160,7 +160,7 @@ def note_failures(figure, failures):
     """At the foot: whose mark stands in the lane of failures, and why. @param failures {name: reason}"""
     if failures:
         note = "failed: " + "; ".join(f"{name}, {reason}" for name, reason in failures.items())
-        if len(failures) > MOST_NOTED:  # They would cover what is drawn.
+        if len(failures) > MOST_NOTED:  # more would cover the plot
             note = f"{len(failures)} failed: see the table"
         figure.text(0.012, 0.004, note, fontsize=5.5, color="#444444", wrap=True, va="bottom")
 

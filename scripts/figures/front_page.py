@@ -21,12 +21,12 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 PAGE = Path(__file__).resolve().parents[2] / "results" / "reference" / "work-precision.md"
 MEDIAN, LATE, ERROR = "frame, median [us]", "99 % [us]", "force error, RMS [% of F_max]"
-ZERO = 1.3  # where errors of 0 are drawn, below the decades
-# Series of the sweep: colour, what it is called, and by how many points its name stands off its last point.
+ZERO = 1.3  # errors of 0 are drawn here
+# Series of the sweep: colour, name, and offset of the name from the last point.
 METHODS = {"original": (style.VERMILLION, "original", (-4, 7)), "improved": (style.BLUE, "improved", (4, 6)),
            "nearest": (style.PURPLE, "nearest: FCL, one contact", (-8, 7)), "certified": (style.GREEN, "certified, what the last\nframe proved kept", (-4, 7)),
            "certified-cold": (style.GREEN, "certified, from scratch\nin every frame", (-4, 7))}
-NUMBERED = (1, 20, 100, 1000)  # frames between searches that stand at their points
+NUMBERED = (1, 20, 100, 1000)  # frames between searches that get a label
 
 
 def points(page, scene):

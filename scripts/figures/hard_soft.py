@@ -28,10 +28,10 @@ PROFILES = ("hard", "soft")
 KINDS = ("open", "closed")
 AGES_FRAMES = (1, 5, 20, 50, 100)
 PREDICTIONS = ("none", "linear")
-LAWS = {"original": "linear", "improved": "exponential"}  # of the methods whose sets age
+LAWS = {"original": "linear", "improved": "exponential"}  # of methods with sets that age
 COST_FRAMES = 5000
 COST_REPETITIONS = 7
-BUZZ_HZ = 30.0  # a hand feels what is above as buzzing
+BUZZ_HZ = 30.0  # a hand feels it as buzzing from here on
 WINDOW_S = (2.2, 2.8)  # of the path: the second contact
 
 
@@ -84,7 +84,7 @@ def draw(runs, directory):
         rate, time = result.scene("frame_rate_hz"), result.time
         window = (time >= WINDOW_S[0]) & (time <= WINDOW_S[1])
         axes[0, column].set_title(name)
-        for label, method in reversed(methods_of(result, profile).items()):  # the paper's methods do not hide the exact one
+        for label, method in reversed(methods_of(result, profile).items()):  # the exact one on top
             force = method.read("force")
             options = {"color": style.colour_of(method), "label": label, "linewidth": 0.6}
             axes[0, column].plot(time[window], method.force_magnitude()[window], **options)

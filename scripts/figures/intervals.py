@@ -31,7 +31,7 @@ def bisect(function, low, high, wanted):
     return 0.5 * (low + high)
 
 
-MANY = 1000  # counts above it: the exact limits cost a sum of as many terms, and the approximation is right to 1e-6
+MANY = 1000  # from this count on an approximation to 1e-6 is faster
 
 
 def poisson_interval(count, level=LEVEL):

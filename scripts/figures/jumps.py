@@ -26,8 +26,8 @@ from lmdbench_results import Result, ResultError, law, run_script
 from tables import table_text
 
 REFERENCE = "certified"
-JUMP_SHARE = 0.25  # of F_max: what the summary of a run counts as a jump
-HAND_OVER_TRAVELS = 50  # how far, in travels of the mesh, a minimum may slide within a frame
+JUMP_SHARE = 0.25  # of F_max, as in the summary of a run
+HAND_OVER_TRAVELS = 50  # in travels of the mesh: the most that a minimum slides in a frame
 KINDS = ("cutoff", "hand-over", "fold", "age", "loss", "false")
 
 Pair = collections.namedtuple("Pair", "distance force point")

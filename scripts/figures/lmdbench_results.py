@@ -23,7 +23,7 @@ else:
 
 FORMAT = "lmdbench-result"
 FORMAT_VERSION = 2
-OLDEST_FORMAT_VERSION = 1  # read, too; results/README.md, "Versions", says what these files lack
+OLDEST_FORMAT_VERSION = 1  # see results/README.md, "Versions"
 EXIT_CHECK_FAILED = 1
 EXIT_INPUT_DATA = 3
 EXIT_ENVIRONMENT = 4
@@ -33,9 +33,9 @@ class ResultError(Exception):
     """A result file is missing, broken or lacks what is asked for; the message names file, place and remedy."""
 
 
-# What reading raises for a file that lacks what every result holds, or holds it in another shape or of another kind.
+# Errors of reading a file that lacks required data, or has it in another shape or type.
 DATA_ERRORS = (AttributeError, IndexError, KeyError, TypeError, ValueError)
-OPENED = []  # names of the results of this call, for messages
+OPENED = []  # results of this call, for messages
 
 
 def text(value):
@@ -60,7 +60,7 @@ def check_content(file, h5):
                           "(remedy: make the file again with lmdbench run; who changed it on purpose deletes the attribute)")
 
 
-# What format 1 left to its readers to know of its methods: place, tracks locally, trackings after a search.
+# Facts of methods that format 1 lacks: place, tracks locally, trackings after a search.
 METHODS_OF_FORMAT_1 = {"original": (0, True, 0), "improved": (1, True, 2), "certified": (2, False, 0), "exhaustive": (3, False, 0)}
 
 
@@ -164,7 +164,7 @@ class Result:
         self.format_version = int(self.h5.attrs["format_version"])
         self.experiment = json.loads(self.read_text("/provenance/experiment"))
         self.experiment_name = self.experiment.get("name", self.file)
-        self.name = self.experiment_name  # among variants of the experiment a longer one (variants.py)
+        self.name = self.experiment_name  # variants get a longer one (variants.py)
         self.time = self.read("/path/time")
         self.warm_up_repetitions = self._warm_up_repetitions()
         self.methods = self._methods()
@@ -277,7 +277,7 @@ def median(values):
     return quantile(values, 0.5)
 
 
-# By name: share of the largest force at s, 1 at the saturation distance and 0 at the cutoff; as src/lmdbench/force/force_law.cpp.
+# Share of the largest force at s, from 0 at the cutoff to 1 at saturation (force/force_law.cpp).
 LAWS = {"linear": lambda s, sharpness: s, "exponential": lambda s, sharpness: np.expm1(sharpness * s) / np.expm1(sharpness) if sharpness else s}
 
 
@@ -324,7 +324,7 @@ def reference_force(method):
     force = np.linalg.norm(method.result.read(dataset), axis=1)
     distance = f"{method.reference()}/minimum_distance"
     if method.result.has(distance):
-        force[method.result.read(distance) == 0.0] = np.nan  # touching triangles have no direction: no force is the true one
+        force[method.result.read(distance) == 0.0] = np.nan  # touching triangles have no direction, so no true force
     return method.result.read(f"{method.reference()}/frame").astype(int), force
 
 
@@ -351,8 +351,8 @@ def run_script(main):
         print(f"{', '.join(OPENED)}: not what a result holds: {error!r} in {os.path.basename(place.filename)}, line "
               f"{place.lineno} (remedy: make the file again with lmdbench run)", file=sys.stderr)
         return EXIT_INPUT_DATA
-    except OSError as error:  # a full disk, a directory that cannot be written, a reader that has gone
+    except OSError as error:  # a full disk, no write permission, a reader that has gone
         if isinstance(error, BrokenPipeError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains at its end
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else the interpreter complains when it ends
         print(error, file=sys.stderr)
         return EXIT_ENVIRONMENT

@@ -15,7 +15,7 @@ from matplotlib.path import Path
 LIGHT = np.array([0.35, 0.45, 0.82])
 MOVING, FIXED = np.array([0.68, 0.80, 0.92]), np.array([0.94, 0.86, 0.70])
 PLAIN = np.array([0.88, 0.88, 0.88])
-# Patches of one level side by side: pale, so that what is drawn over them stands out.
+# Side by side patches of one level: pale, so that drawings over them stand out.
 PATCHES = np.array([[0.65, 0.81, 0.89], [0.99, 0.80, 0.60], [0.70, 0.87, 0.64], [0.92, 0.70, 0.78], [0.99, 0.95, 0.62], [0.79, 0.74, 0.86]])
 RIM = np.linspace(0.0, 2.0 * np.pi, 73)
 
@@ -96,7 +96,7 @@ def draw_cone(axes, apex, axis, half_angle, length, view, colour, zorder=4):
     rim = cone_rim(apex, axis, half_angle, length) @ view.T
     tip = view @ apex
     sides = np.stack([np.broadcast_to(tip, (len(rim) - 1, 3)), rim[:-1], rim[1:]], axis=1)[:, :, :2]
-    # One path of triangles that all turn the same way: filled as their union, without seams.
+    # One path of equally oriented triangles: filled as their union, without seams.
     a, b = sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]
     turned = a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0]
     sides[turned] = sides[turned][:, ::-1]

@@ -98,7 +98,7 @@ def main(argv):
         top.set_ylabel("length of the curves [mm]")
         bottom = figure.add_axes([0.64, 0.14, 0.34, 0.32], sharex=top)
         bottom.plot(times, 1e6 * lines.seconds, ".", color=style.BLACK, markersize=2.5)
-        bottom.set_ylim(0, 1.6e6 * np.quantile(lines.seconds, 0.95))  # above: another program had the processor
+        bottom.set_ylim(0, 1.6e6 * np.quantile(lines.seconds, 0.95))  # above: another program ran
         bottom.set(ylabel="walk and chaining [us]", xlabel="time [s]")
         return style.leave(figure, arguments.out, "polylines")
 

@@ -24,14 +24,14 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 MM = 1e3
-SAME = 3e-4  # contacts of two frames nearer than this to each other on the clip are one [m]
-EDGE = 0.95  # of the cutoff: what is born or dies beyond comes and goes without a force
+SAME = 3e-4  # contacts of two frames this near to each other are one [m]
+EDGE = 0.95  # of the cutoff: LMDs beyond appear and vanish without force
 
 
 def section(points, triangles, height):
     """The closed outlines, each (n, 2) in x and z, in which a closed mesh cuts the plane y = height; no vertex may lie in it."""
     above = points[:, 1] > height
-    ends = {}  # of every edge that is cut: the edges that the cut goes on to, across the triangle on either side
+    ends = {}  # of every cut edge: the edges where the cut continues in its two triangles
     for triangle in triangles[above[triangles].any(axis=1) & ~above[triangles].all(axis=1)]:
         one, other = (tuple(sorted(edge)) for edge in zip(triangle, np.roll(triangle, -1)) if above[edge[0]] != above[edge[1]])
         ends.setdefault(one, []).append(other)

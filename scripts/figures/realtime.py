@@ -32,7 +32,7 @@ METHODS = {"original": "linear", "improved": "exponential", "certified": "expone
 SCENES = ("bunny-hard", "bunny-soft")
 SPEEDS_MM_S = (1, 10, 100)
 PREDICTIONS = ("none", "linear")
-AGE_PATH_M = 0.01  # way of the recorded path that the speeds share
+AGE_PATH_M = 0.01  # of the recorded path
 AGE_SECONDS = 10.0
 STOPPED_S = 0.3
 WALL_SHARES = (0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05)  # of the lockstep's boundary
@@ -161,7 +161,7 @@ def free_part(study):
 def scaled_path(study, speed):
     """The same stretch of the hard path at a mean speed [mm/s], there and back for AGE_SECONDS; at most 1000 poses a second."""
     poses = np.loadtxt(os.path.join("paths", "bunny-hard.tum"))
-    # From where the meshes touch: the recorded path is in contact from a second on.
+    # The recorded path is in contact from one second on.
     poses = poses[poses[:, 0] >= 1.0]
     way = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(poses[:, 1:4], axis=0), axis=1))))
     poses = poses[: np.searchsorted(way, AGE_PATH_M) + 1]
@@ -276,7 +276,7 @@ def measured(part):
         return 0
 
 
-# In a mount namespace of its own: a small disk, which is filled once the run goes on. Prints the run's exit code.
+# In its own mount namespace, on a small disk that fills once the run resumes. Prints its exit code.
 FULL_DISK = """
 mount -t tmpfs -o size=16m lmdbench "$1" || exit 99
 disk=$1 keep=$2; shift 2

@@ -27,7 +27,7 @@ def k5(sweep):
         ratio = candidates / kept if kept else math.nan
         largest = point.number("reduction_ratio_maximum")
         if not point.number("seconds_in_contact") > 0:
-            continue  # the path comes no nearer than the cutoff
+            continue  # the path stays beyond the cutoff
         cell = HOLDS if 10 <= largest <= 40 else FAILS
         cells[f"{options_text(options)} | {mesh(point)}, cutoff {100 * cutoff_share(point):g} %"] = cell
         choice = (options["visibility"], options["reduction"], options.get("leaf_cones", "one-ring"))

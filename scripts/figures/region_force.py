@@ -25,7 +25,7 @@ def k1(sweep):
         against = improved.get((period, share)) if series.startswith("original") else None
         if against:
             control = rate(against, "switches")
-            # A tenth: low of the one against high of the other, so that neither rests on one event.
+            # Low of one against high of the other, times a tenth: neither rests on one event.
             cell = (FAILS if control.low > 0.1 * switches.high or switches.high < 1.0
                     else HOLDS if switches.low >= 1.0 and control.high <= 0.1 * switches.low else OPEN)
             wider = ", Fig. 5 (a) with edge neighbours" if "edge-neighbours" in series else ""
@@ -53,7 +53,7 @@ def k2(sweep):
     rows, cells = [], {}
     for (series, period, angle, share), points in groups(sweep.points, lambda p: p.series, lambda p: p.period, tolerance, cutoff_share).items():
         value, limits = over_paths(points, lambda p: p.number("lmd_count_p99"))
-        # One number of every method at the cutoff that is swept in mean edges; under 10 is at most 9.
+        # One number of each method at the cutoff in mean edges; under 10 is at most 9.
         cell = decide(*limits, at_most=9.0)
         name = f"{series.split('-')[0]}, cutoff {in_edges(share)} mean edges"
         extra = ", ".join(text for text in (schedule(period), f"G5 {angle:.0f} deg" if angle is not None else "",

@@ -12,12 +12,12 @@ import numpy as np
 from intervals import Rate
 from tables import shown
 
-HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"  # a setting
-REPRODUCED, NOT_REPRODUCED, HOLDS_WHERE = "reproduced", "not reproduced", "holds where"  # a claim, or OPEN
-LEAST_REPETITIONS = 2  # one does not tell how far the next would lie from it
-MEAN_EDGE_DIAGONAL = 0.0128  # of bunny-16k: `lmdbench mesh info bunny-16k`, mean edge / diagonal
+HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"  # of a setting
+REPRODUCED, NOT_REPRODUCED, HOLDS_WHERE = "reproduced", "not reproduced", "holds where"  # of a claim, or OPEN
+LEAST_REPETITIONS = 2  # fewer show no spread
+MEAN_EDGE_DIAGONAL = 0.0128  # of bunny-16k, by `lmdbench mesh info bunny-16k`
 MANIFEST = Path(__file__).resolve().parents[2] / "meshes" / "manifest.json"
-BLOCK = 200  # frames that are resampled together: neighbours resemble each other
+BLOCK = 200  # frames resampled together: neighbours are alike
 
 
 def span(values):

@@ -49,7 +49,7 @@ OURS = (("certified", {"name": "certified"}, style.BLACK, "o"), ("improved", {"n
 SHARED = "certified, shared"
 SUBDIVISIONS = (1, 10, 100)
 TRUTH_FRAMES = 10
-LEAST_STEP = 1e-5  # of F_max; what is less is drawn there
+LEAST_STEP = 1e-5  # of F_max; smaller errors are drawn here
 
 
 def scaled_error(forces, truth):

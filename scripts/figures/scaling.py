@@ -26,19 +26,19 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 FORMAT = "lmdbench-scaling"
 FORMAT_VERSION = 1
 BOOTSTRAP_SAMPLES = 2000
-SEED = 1  # of the bootstrap: the same file gives the same figure
+SEED = 1  # of the bootstrap: equal files give equal figures
 
 CERTIFIED = "certified"
-# The figure is about certified, in three ways of calling it. Name in the file: label, colour, line.
+# Three ways of calling certified. Name in the file: label, colour, line.
 CERTIFIED_LOOKS = {
     CERTIFIED: ("certified, unrelated poses", style.GREEN, (0, (5, 1, 1, 1))),
     "certified sliding": ("certified, sliding", style.ORANGE, (0, (4, 1.5))),
     "certified coherent": ("certified, sliding, coherent", style.BLACK, "-"),
 }
-# What it is compared with looks like this, in the order of the file.
+# Looks of the methods compared with it, in the order of the file.
 PEER_LOOKS = ((style.VERMILLION, (0, (2.6, 0.8))), (style.BLUE, "-"), (style.PURPLE, ":"), (style.SKY, "--"),
               (style.GREY, (0, (1, 1))), (style.YELLOW, "-"))
-REDUCED = "+reduction"  # ends the name of a search with the first reduction; the search alone is then left out
+REDUCED = "+reduction"  # ends the name of a search with first reduction, which replaces the search alone
 STUDIES = {"dragon": "D", "bunny": "o", "armadillo": "s", "bunny-subdivided": "^"}
 STUDY_LABELS = {
     "dragon": "dragon on bunny of 75k",

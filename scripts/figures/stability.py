@@ -20,14 +20,14 @@ from tables import shown, table_text, write_text
 
 import matplotlib.pyplot as plt
 
-TOLERANCE = 1e-3  # relative: what the wall must reach
+TOLERANCE = 1e-3  # relative; for the wall
 
 # (mass in kg, damping in N s/m): light and heavy, free and damped devices.
 DEVICES = [(0.02, 0.5), (0.04, 0.8), (0.075, 0.2), (0.136, 2.0), (0.5, 5.0)]
 RATES_HZ = [250, 1000, 4000, 10000]
 DELAYS_FRAMES = [0, 1, 2, 5, 10, 20, 50]
 
-# Six actuated degrees of freedom: a contact 50 mm beside the point held. A mass that does not move leaves a rotational wall, K l^2.
+# Six actuated degrees of freedom, contact 50 mm off: an immobile mass leaves a wall of K l^2.
 LEVERS = [
     ("turns only", {"/loop/mass_kg": 1000, "/loop/damping_n_s_per_m": 10000, "/loop/rotation/inertia_kg_m2": 1e-4,
                     "/loop/rotation/damping_n_m_s": 2e-3}),
@@ -61,7 +61,7 @@ class Searches:
         """Rows of one search; 'settings' maps JSON pointers to values."""
         key = self.key(experiment, settings)
         if key not in self.known:
-            # 3: a row has no stiffness, and says why
+            # 3: a row has no stiffness, and tells the reason
             said = printed([self.program, "stability", experiment, "--json", *settings_words(settings)], allowed=(0, 3))
             self.known[key] = json.loads(said)
             with open(self.file, "a", encoding="utf-8") as stream:

@@ -24,9 +24,9 @@ from matplotlib.ticker import FixedLocator, FuncFormatter
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
 BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # run time of a second of haptics
-MOST_COLUMNS = 3  # problems beside each other; more stand below
+MOST_COLUMNS = 3  # problems side by side; more go below
 MOST_PANELS = 24  # problems in one figure; the tables hold all
-LANE = 0.35  # height of the lanes for errors of 0 and for failures, in decades
+LANE = 0.35  # height in decades of the lanes for errors of 0 and failures
 
 
 def cost(point):
@@ -37,7 +37,7 @@ def error(point):
     return 100.0 * point.force_error
 
 
-ROUNDING = 1e-6  # errors below it [%] are rounding, and drawn as 0
+ROUNDING = 1e-6  # smaller errors [%] are drawn as 0
 
 
 def drawn_error(point):
@@ -91,7 +91,7 @@ def draw_panel(axes, points, value, colours, markers):
             steps += [(cost(point), steps[-1][1]), (cost(point), place(point))]
         axes.plot([x for x, _ in steps] + [axes.get_xlim()[1] * 1e3], [y for _, y in steps] + [steps[-1][1]],
                   color=style.PALE_GREY, lw=3.0, zorder=1, solid_capstyle="butt")
-    taken = []  # where labels stand, in inches
+    taken = []  # boxes of labels, in inches
     for series in dict.fromkeys(point.series for point in points):
         for line in lines([point for point in points if point.series == series]):
             drawn = [point for point in line.points if np.isfinite(cost(point)) and (np.isfinite(value(point)) or point.trouble)]
@@ -147,7 +147,7 @@ def draw(sweep):
     problems, panel_titles = sweep.problems[:MOST_PANELS], titles(sweep)
     columns = min(len(problems), MOST_COLUMNS)
     bands = -(-len(problems) // columns)  # rows of problems, each with all quantities
-    heads = max(title.count("\n") for title in panel_titles.values())  # further lines of their titles
+    heads = max(title.count("\n") for title in panel_titles.values())  # further lines of the titles
     key_rows = -(-(len(sweep.series) + 1) // 6)
     top = 0.66 + 0.16 * key_rows + 0.13 * heads
     height = top + 0.1 + 2.1 * len(QUANTITIES) * bands + (0.35 + 0.13 * heads) * (bands - 1)

@@ -27,9 +27,9 @@ from program import PROGRAM
 
 import matplotlib.pyplot as plt
 
-GAP, CUTOFF = 0.01, 0.05  # m; the force falls linearly from 1 at distance 0 to 0 at the cutoff
+GAP, CUTOFF = 0.01, 0.05  # m; linear force, 1 at distance 0, 0 at the cutoff
 TILTS = np.logspace(-2, -12, 201)
-AXIS = np.array([2.0, 1.0, 0.0]) / np.sqrt(5.0)  # between the box's sides, so that one corner is lowest
+AXIS = np.array([2.0, 1.0, 0.0]) / np.sqrt(5.0)  # not along a side, so that one corner is lowest
 
 
 def box(low, high, turn):

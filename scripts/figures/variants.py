@@ -7,7 +7,7 @@ import os
 
 from lmdbench_results import Result, ResultError
 
-# Of the experiment, what changes no result: named only where nothing else differs.
+# Settings without effect on results: named only if nothing else differs.
 INCIDENTAL = ("/probes", "/record", "/plan", "/mesh_folder", "/driver/block_frames", "/driver/repetitions")
 NEVER = ("/$schema", "/name", "/title")
 MOST_NAMED = 3
@@ -36,7 +36,7 @@ def differences(variants):
     said = [settings(variant) for variant in variants]
     places = list(dict.fromkeys(place for one in said for place in one if not place.startswith(NEVER)))
     last = [place.rsplit("/", 1)[-1] for place in places]
-    # A method that some of them lack is told once, by its name.
+    # A method that some variants lack is named once.
     partly = {place for place in places if place.startswith("/methods//") and not all(place in one for one in said)}
     differ = [place for place in places if place not in partly and len({json.dumps(one.get(place)) for one in said}) > 1]
     differ = [place for place in differ if not place.startswith(INCIDENTAL)] or differ

@@ -20,7 +20,7 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 
 CUTOFF = 0.55
-PUSH = 1.3  # length of the arrow of a force that is as large as can be
+PUSH = 1.3  # length of the arrow of the largest force
 THICKNESS = 0.2
 
 

@@ -24,7 +24,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator
 
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
-# Width of the lanes beside the logarithmic range, as a share of it: errors of exactly 0, and failures.
+# Width of the lanes for errors of exactly 0 and for failures, as a share of the logarithmic range.
 LANE_SHARE = 0.2
 ROUNDING = 1e-8  # errors below this share of F_max are rounding, and drawn as 0
 LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5),)
@@ -53,7 +53,7 @@ class Point:
             self.failure = "finds no true LMD"
 
 
-# Quantity, a more lenient one that is drawn as an open mark on the same level, label.
+# Quantity, a more lenient one (an open mark on the same level), label.
 PANELS = (
     ("force_error", None, "RMS force error / $F_{max}$ of one LMD [1]"),
     ("missed", "missed_adjacent", "missed share of true LMDs [1]"),
@@ -64,14 +64,14 @@ def error_axis(axes, errors, any_failed):
     """Logarithmic range of the finite positive errors, with a shaded lane for errors of exactly 0 on its left and one
     for failures on its right where they are needed; returns the places of the two lanes and their width in decades."""
     positive = [error for error in errors if np.isfinite(error) and error > 0]
-    # Points keep a tenth of a decade from the ends.
+    # Points stay a tenth of a decade from the ends.
     low = np.floor((np.log10(min(positive)) - 0.1) * 5) / 5 if positive else -3.0
     high = max(np.ceil(np.log10(max(positive)) * 20) / 20 + 0.1 if positive else 0.0, low + 1.0)
     lane = LANE_SHARE * (high - low)
     axes.set_xscale("log")
     zero, failed, limits = style.lanes(axes.xaxis, axes.axvspan, low, high, lane, any(error == 0 for error in errors), any_failed)
     axes.set_xlim(limits)
-    # Between labels that leave decades out, the unlabelled decades are the small marks.
+    # Labels may leave out decades; those get small marks.
     every = [10.0**power for power in range(math.floor(low), math.floor(high) + 1)]
     small = every if len(every) > style.MOST_LABELLED else [step * decade for decade in every for step in range(2, 10)]
     axes.xaxis.set_minor_locator(FixedLocator([mark for mark in small if 10**low <= mark < 10**high]))

@@ -45,7 +45,7 @@ class World:
         self.offset = lmds["frame_offset"][:].astype(int)
         self.body = lmds["fixed_body"][:].astype(int)
         self.points = lmds["point_fixed"][:]
-        # Of files written before instances counted as pairs do, too.
+        # Names of older files, in which instances are counted, not pairs.
         names = ("pairs_touched", "pairs_searched", "broad_phase_queries", "instances_touched", "instances_searched")
         self.counters = {name: group["counters"][name][:] for name in names if name in group.get("counters", {})}
 

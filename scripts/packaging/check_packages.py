@@ -19,7 +19,7 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CONSUMER = [os.path.join(HERE, "..", "..", "tests", "install", "consumer", name) for name in ("main.cpp", "CMakeLists.txt")]
-# What the system itself writes whenever packages come and go.
+# Files that the system itself writes when packages come and go.
 SYSTEMS_OWN = ("/var/cache", "/var/lib/apt", "/var/lib/dpkg", "/var/log", "/etc/ld.so.cache", "/tmp", "/debs", "/root", "/proc", "/sys",
                "/dev", "/run", "/var/lib/systemd", "/var/lib/ucf", "/var/lib/python", "/etc/ssl/certs", "/var/lib/xml-core")
 USE_MODULE = """
@@ -83,7 +83,7 @@ class Root:
 
 
 def use(root, checks, when):
-    # A link to a device that no chroot has: standard input from nowhere suffices.
+    # A chroot lacks that device; an empty standard input is enough.
     code, said = root("sh", "-c", "cd /root && lmdbench run /usr/share/lmdbench/experiments/shapes.json --out shapes.h5 --set /frames=200")
     checks.that(code == 0 and os.path.getsize(root.folder + "/root/shapes.h5") > 10_000, f"{when}: runs shapes.json{said if code else ''}")
     code, said = root("python3", "-c", USE_MODULE)

@@ -28,7 +28,7 @@ def main():
     for _ in range(CALLS):
         begin = time.perf_counter()
         sets = search(poses)
-        lmds = sum(part.size for part in sets)  # every set is touched as an array
+        lmds = sum(part.size for part in sets)  # so every set is an array in use
         took = time.perf_counter() - begin
         ratios.append(took / sets.seconds.sum())
         milliseconds.append(1e3 * took)

@@ -6,7 +6,7 @@ from claim_rules import rows
 from claim_verdicts import read_verdicts
 from lmdbench_results import ResultError
 
-# Where the evidence of a claim stands, by the sections' ids; a page links to those that it has.
+# Ids of sections with evidence of a claim; a page links to those that it has.
 EVIDENCE = {
     "K1": ("frames", "sweep-claim-k1", "study-claim-regions", "study-jumps"),
     "K2": ("frames", "study-claim-regions"),
@@ -25,13 +25,13 @@ EVIDENCE = {
 
 def claims_of(results):
     """{"hard", "soft", "claims"} of the two results that have the paper's methods, or {"problem": why there is no ledger}."""
-    # On the machine's clock (/realtime) each method searches when it can: their searches do not stand beside each other.
+    # On the clock (/realtime) each method searches when it can, so searches cannot be paired.
     able = [result for result in results if {"original", "improved"} <= set(result.methods) and result.number("frames_in_contact") > 0
             and not result.has("/realtime")]
     if not able:
         return {"problem": "No claim can be judged: it takes results of the driver lockstep with methods called original and improved, and frames "
                            "in contact."}
-    # Harder is what reaches less far.
+    # The harder contact has the smaller cutoff.
     hard, soft = sorted([able[0], able[min(1, len(able) - 1)]], key=lambda result: result.scene("cutoff_m"))
     try:
         claims = rows(hard, soft, read_verdicts())

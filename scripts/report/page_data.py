@@ -10,10 +10,10 @@ import numpy as np
 import figure_style as style
 from lmdbench_results import reference_force, true_forces, truth_of
 
-# Lines must be seen on a white and on a dark page.
+# Lines must be visible on a white and on a dark page.
 ON_BOTH = {style.BLACK: "#777777"}
 RANGE_MARGIN = 1.05
-RECALL_WINDOW = 40  # probed frames: a frame has so few LMDs that its own recall is mostly 0 or 1
+RECALL_WINDOW = 40  # probed frames: one frame's recall is mostly 0 or 1
 
 
 def encoded(values, kind="<f4"):

@@ -7,9 +7,9 @@ import os
 from lmdbench_results import ResultError
 from studies import picture
 
-WIDTH = 1000  # pixels: three quarters of the page, and the text in them stays readable
+WIDTH = 1000  # pixels, three quarters of the page: text stays readable
 
-# What each shows, in the paper's words where it has some.
+# What each figure shows, in the paper's words if it has some.
 FIGURES = (
     ("figure1", "Two meshes near each other and their local minimum distance pairs, and the contact enlarged."),
     ("figure2", "A normal cone: the normals round a patch of the surface, and the cone that has to cover them."),

@@ -68,7 +68,7 @@ def track_json(result, label, entries):
     frames = [entry["frame"] for entry in entries]
     group = f"/methods/{label}" if label else ""
     methods = [result.methods[label]] if label else list(result.methods.values())
-    # Several profiles on one path each keep the curves of the same poses.
+    # Several profiles on one path share the curves at equal poses.
     curves = next((name for name in (f"{group}/polylines", *(f"/methods/{method.label}/polylines" for method in methods)) if result.has(name)), "/polylines")
     own = {method.label: recorded_sets(method, frames) for method in methods}
     return {"label": label, "frames": frames, "time": packed(result.time[frames]),
@@ -99,7 +99,7 @@ def scene(result, folder):
         shapes = os.path.join(folder, role + ".shapes")
         places = np.fromfile(shapes, "<f4").reshape(-1, 3).astype(float) if os.path.exists(shapes) else None
         meshes.append({"role": role, **mesh_json(vertices, triangles, places)})
-        # Two bodies of one mesh share what they have in common.
+        # Two bodies of one mesh share its data.
         twin = same.setdefault(meshes[-1]["triangles"], role)
         if twin != role:
             meshes[-1]["triangles"] = None

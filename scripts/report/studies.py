@@ -11,7 +11,7 @@ import re
 import markdown
 from PIL import Image
 
-# Those that a reader looks for come first and have their own place in the page's navigation.
+# Studies that a reader looks for first, with places of their own in the page's navigation.
 FIRST = ("extreme", "hard-soft", "stability", "scaling", "ledger")
 PICTURE_WIDTH = 1500  # pixels: sharp at the width of the page
 PICTURE_QUALITY = 75  # of 100: lines and text stay sharp
@@ -51,7 +51,7 @@ def study(file):
     name = os.path.splitext(os.path.basename(file))[0]
     body = re.sub(r"(?m)^# .+\n", "", text, count=1)
     body = markdown.markdown(pictures_inside(body, os.path.dirname(file)), extensions=["tables", "fenced_code"])
-    # Links to files beside the study lead nowhere from the page.
+    # Links to files beside the study would be broken on the page.
     body = re.sub(r'<a href="(?!https?:|#)[^"]*">(.*?)</a>', r"\1", body)
     return {"id": "study-" + slug(name), "name": name, "title": title.group(1) if title else name, "html": body,
             "open": False}

@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 constexpr ChildLimits LIMITS{1, std::int64_t{64} << 20};
 
-/// How a child ends that sends nothing.
+/// How a child ends that runs this work and sends nothing.
 std::string end_of(const std::function<void()>& work) {
   ChildProcess child([&](const ChildProcess::Send&) { work(); }, LIMITS);
   std::array<std::byte, 1> byte;

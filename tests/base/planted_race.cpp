@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <thread>
 
-/// A race of our own, in a loop of base/parallel.h: every thread adds to the same number. The thread sanitizer
-/// must report it and end the program with its exit code; a build in which it passes proves nothing about races
-/// (tests/base/CMakeLists.txt).
+/// A planted race in a loop of base/parallel.h: every thread adds to the same number. The thread
+/// sanitizer must report it and end the program with its exit code. A build in which the program
+/// passes proves nothing about races (tests/base/CMakeLists.txt).
 int main() {
   long sum = 0;
   lmdbench::parallel_for(64, [&](std::size_t i) {

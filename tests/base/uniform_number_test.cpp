@@ -8,7 +8,7 @@ namespace lmdbench {
 namespace {
 
 TEST(UniformNumber, IsTheSameOnEveryPlatform) {
-  std::mt19937_64 generator(5489);  // the standard fixes the 10000th number of this seed: 9981545732273789042
+  std::mt19937_64 generator(5489);  // The standard fixes its 10000th number.
   for (int i = 1; i < 10000; ++i) generator();
   EXPECT_EQ(uniform_number(generator),
             static_cast<double>(9981545732273789042ULL >> 11) / 9007199254740992.0);

@@ -31,8 +31,7 @@ using ::testing::HasSubstr;
 
 void ignore(const std::string&) {}
 
-// A manifest with one source, and the package that holds it: made here with
-// dpkg-deb, so no network is needed.
+// A manifest with one source, and its package, made here with dpkg-deb: no network is needed.
 class BuildMeshTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -143,7 +142,7 @@ TEST_F(BuildMeshTest, TellsWhatIsMissingWithoutTheTools) {
 
 TEST_F(BuildMeshTest, TellsAFailedDownloadAndHowToGoWithoutOne) {
   fs::remove_all(sources());
-  // An apt-get that fails as one without a network does.
+  // This apt-get fails as the real one does without a network.
   const std::filesystem::path fake = folder_.write(
       "bin/apt-get", "#!/bin/sh\necho 'E: Unable to locate package some-package' >&2\nexit 100\n");
   fs::permissions(fake, fs::perms::owner_all);
@@ -199,7 +198,7 @@ class HostilePackageTest : public BuildMeshTest {
     fs::create_directories(folder_.path() / "elsewhere");
     folder_.write("elsewhere/blob.off", "mine");
   }
-  /// Packs what stands in "stage" under the archive's name.
+  /// Packs the folder "stage" under the archive's name.
   void pack() {
     const fs::path archive = folder_.path() / "package" / "usr" / "share" / "data.tar.gz";
     run({"tar", "-czf", archive.string(), "-C", "stage", "data"});
@@ -214,7 +213,7 @@ class HostilePackageTest : public BuildMeshTest {
 };
 
 TEST_F(HostilePackageTest, LinksInAnArchiveLeadNowhere) {
-  // The folder is a link to elsewhere; a member behind it follows.
+  // The archive holds a link to another folder, and then a member below that link.
   const TriangleMesh other = make_box({1, 1, 1});
   fs::remove_all(folder_.path() / "stage");
   fs::create_directories(folder_.path() / "stage");
@@ -255,7 +254,7 @@ TEST_F(HostilePackageTest, NamesThatLeadOutOrToAnotherComputerAreRefused) {
           << path;
     }
   }
-  // A colon is a name like any other: tar must look for no computer of that name.
+  // tar reads the part of a name before a colon as the name of a computer, unless told otherwise.
   nlohmann::json document = nlohmann::json::parse(R"({
     "format": "lmdbench-mesh-manifest", "format_version": 1,
     "meshes": {"blob": {"description": "d", "source": "s", "triangles": 1280}},

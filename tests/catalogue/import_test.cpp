@@ -31,7 +31,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Corners = std::array<std::int32_t, 3>;
 
-// A mesh whose coordinates are few enough digits for single precision, as the formats below can hold them.
+// Single precision, as in the formats below, holds every coordinate of this mesh.
 TriangleMesh single_precision_blob() {
   TriangleMesh mesh = make_blob(1.0, 0.3, 2);
   for (Vec3& vertex : mesh.vertices)
@@ -103,7 +103,7 @@ TEST(ImportTest, KeepsTheTrianglesOfEveryFormatInTheirOrder) {
   expect_same_triangles(import_mesh(folder.write("blob.obj", to_obj(mesh))), mesh, 3e-7);
 }
 
-// The first number of the content may begin with the byte of a line feed, whatever ends the lines of the header.
+// The first number of the content may begin with the byte of a line feed.
 TEST(ImportTest, ReadsABinaryPlyWhoseFirstByteIsALineFeed) {
   const ScratchDirectory folder;
   TriangleMesh mesh = single_precision_blob();
@@ -116,7 +116,7 @@ TEST(ImportTest, ReadsABinaryPlyWhoseFirstByteIsALineFeed) {
   for (std::size_t at = header.find('\n'); at != std::string::npos; at = header.find('\n', at + 2))
     header.insert(at, 1, '\r');
   expect_same_triangles(import_mesh(folder.write("dos.ply", header + text.substr(content))), mesh, 0.0);
-  // In text it is an empty line.
+  // In a text file such a byte is an empty line.
   const std::string ascii =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -140,8 +140,8 @@ TEST(ImportTest, IsSilentOnStandardOutput) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-// A glTF node tree: the same triangle once as it is, once moved, and once mirrored in x, which must not turn
-// it inside out.
+// A glTF node tree: the same triangle once as it is, once moved, and once mirrored in x, which must
+// not turn it inside out.
 TEST(ImportTest, MergesNodesWithTheirTransforms) {
   const ScratchDirectory folder;
   const std::filesystem::path file = folder.write("scene.gltf", R"({

@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(OffFileTest, WritesAllOrNothing) {
   const ScratchDirectory folder;
   const std::filesystem::path file = folder.write("mesh.off", "old");
-  // The new content does not fit, as on a full disk.
+  // The new content does not fit, as on a full disk: SIGXFSZ is ignored, so that write() fails.
   const auto previous_handler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit previous{};
   getrlimit(RLIMIT_FSIZE, &previous);

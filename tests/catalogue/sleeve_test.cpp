@@ -16,7 +16,7 @@
 namespace lmdbench {
 namespace {
 
-/// Area inside the outline's points.
+/// Area inside the outline.
 double area_of(const std::vector<Vec2>& points) {
   double twice = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -67,7 +67,7 @@ TEST(Sleeve, HasTheFlatRegionsOfItsSides) {
 }
 
 TEST(Sleeve, DoesNotFoldTheEndsOfAGear) {
-  // A face that folds back into its own plane would fall into regions between which contacts are torn.
+  // A face that folds back into its own plane would split into regions, and contacts with it.
   for (const int teeth : {10, 20, 30}) {
     const Outline gear = gear_outline(teeth, 0.1, 0.002);
     const SleeveChoice choice{.height = 0.2, .around = 8 * teeth, .layers = 1, .rings = 3};
@@ -91,8 +91,8 @@ TEST(Sleeve, DoesNotFoldTheEndsOfAGear) {
 }
 
 TEST(Sleeve, GearsOfOneModuleMeshWithoutCutting) {
-  // Rolled by some angle, the flanks of two involute gears touch along the line of action, and never cross: points of
-  // one outline that are inside the other one are so by no more than the outline's chords are off.
+  // Two involute gears roll: their flanks touch along the line of action and never cross. A point
+  // of one outline may be inside the other by no more than the error of the outline's chords.
   constexpr int TEETH = 16, AROUND = 32 * 20;
   constexpr double MODULE = 0.1, DISTANCE = MODULE * TEETH;
   const std::vector<Vec2> points = gear_outline(TEETH, MODULE, 0.0)(AROUND, 0.0);
@@ -109,7 +109,7 @@ TEST(Sleeve, GearsOfOneModuleMeshWithoutCutting) {
   for (const double roll : {0.0, 0.03, 0.07, 0.1}) {
     double deepest = -1.0;
     for (const Vec2& point : points) {
-      // The other gear has a gap where this one has a tooth, and turns the other way.
+      // The other gear turns the other way and has a gap where this one has a tooth.
       const double angle = -roll + std::numbers::pi / TEETH;
       const Vec2 turned(std::cos(angle) * point.x() - std::sin(angle) * point.y() + DISTANCE,
                         std::sin(angle) * point.x() + std::cos(angle) * point.y());

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-/// What a user can get wrong, through the real program: exit code, and a message that
-/// names the file and the place.
+/// Errors that users make, through the real program: it must give the exit code and a message that
+/// names file and place.
 namespace lmdbench::testing {
 namespace {
 
@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 class BadInput : public ::testing::Test {
  protected:
-  /// Runs the shapes experiment with this change; nothing of it may leave a result.
+  /// Runs the shapes experiment with this change; it must fail and leave no result.
   Outcome run_with(const std::string& options) {
     const Outcome outcome =
         lmdbench("run " + SHAPES + options + " --out '" + (scratch_ / "r.h5").string() + "'");
@@ -160,7 +160,7 @@ TEST_F(BadInput, CommandLine) {
 }
 
 TEST_F(BadInput, NonManifoldMeshGoesOnWithAWarning) {
-  // Three triangles round one edge, above the torus.
+  // Three triangles share one edge, above the torus.
   const std::string fins = scratch_.write(
       "fins.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n0.5 1 0\n0.5 0 1\n0.5 -1 0\n3 0 1 2\n3 0 1 3\n3 0 1 4\n");
   const std::string out = (scratch_ / "r.h5").string();

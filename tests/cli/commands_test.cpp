@@ -110,7 +110,7 @@ TEST_P(StopSignals, EndTheRunByTheSignalKeepWhatWasMeasuredAndTheEarlierResult) 
   ASSERT_EQ(lmdbench("run " + SHORT_RUN + "--out '" + result + "'").code, 0);
   const std::string earlier = read_text(result);
   const std::string run = "run " + SHAPES + "--set /driver/repetitions=1000 --out '" + result + "'";
-  // The part grows from a few kilobytes to all its room when the first frame is about to run.
+  // The part file grows from a few kilobytes to its full size just before the first frame runs.
   const Outcome outcome =
       lmdbench(run + " & pid=$!; until [ -e '" + result + ".part' ] && [ $(stat -c %s '" + result +
                ".part') -gt 100000 ]; do kill -0 $pid || exit; sleep 0.05; done; sleep 0.3; kill -" + name +
@@ -254,7 +254,7 @@ TEST(StabilityCommand, NoAnswerIsItsOwnExitCodeWithARemedy) {
 
 TEST(MeshCommand, SaysWhereAMeshCrossesItselfAndIsInsideOut) {
   const ScratchDirectory scratch;
-  // Two tetrahedra that cross, the second one inside out.
+  // Two tetrahedra that cross; the second one is inside out.
   scratch.write("cross.off",
                 "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.1 .1 .1\n1.1 .1 .1\n.1 1.1 .1\n.1 .1 1.1\n"
                 "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n");
@@ -302,7 +302,7 @@ TEST_F(QueryCommand, TakesUnitsAndTurnsWhatIsInsideOut) {
 }
 
 TEST_F(QueryCommand, PrintsALineAPoseInWorldCoordinates) {
-  // Turned by 45 degrees about x: an edge of the moving cube hangs over the fixed cube's upper face.
+  // The moving cube is turned by 45 degrees about x: its edge hangs over the fixed upper face.
   const std::string poses =
       scratch_.write("p.tum", "1 0.25 0.5 1.01 0.3826834323650898 0 0 0.9238795325112867\n2 0 0 5 0 0 0 1\n");
   const std::string mesh = cube();

@@ -23,11 +23,11 @@ const std::string RUN = "run '" LMDBENCH_SOURCE_DIR
                         "/experiments/shapes.json' --set /frames=60 --set /driver/repetitions=3 "
                         "--set /probes/truth/stride_frames=20 --set /probes/fcl/stride_frames=0 ";
 
-/// Replaces one element of a dataset of a result, as another version of the program might have left it.
+/// Replaces one element of a dataset of a result, as a change of the program might.
 void plant(const std::filesystem::path& file, const char* dataset, std::vector<hsize_t> at, hid_t type,
            const void* value) {
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  H5Adelete(id, "content_sha256");  // a change on purpose
+  H5Adelete(id, "content_sha256");  // The file is changed on purpose.
   const hid_t data = H5Dopen2(id, dataset, H5P_DEFAULT);
   const hid_t space = H5Dget_space(data);
   if (at.empty()) {  // a single number
@@ -47,10 +47,10 @@ void plant(const std::filesystem::path& file, const char* dataset, std::vector<h
   H5Fclose(id);
 }
 
-/// Multiplies the times of all repetitions, as a slower build would have left them.
+/// Multiplies the times of all repetitions, as a slower build would.
 void slow_down(const std::filesystem::path& file, const char* dataset, double factor, double seconds_more) {
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  H5Adelete(id, "content_sha256");  // a change on purpose
+  H5Adelete(id, "content_sha256");  // The file is changed on purpose.
   const hid_t data = H5Dopen2(id, dataset, H5P_DEFAULT);
   const hid_t space = H5Dget_space(data);
   std::vector<double> times(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
@@ -75,7 +75,7 @@ class CompareCommand : public ::testing::Test {
     std::filesystem::copy_file(*scratch_ / "b.h5", *scratch_ / name);
     return *scratch_ / name;
   }
-  /// `--base` or `--candidate` with six processes: copies of the second run whose times this factor lengthens.
+  /// `--base` or `--candidate` with six copies of the second run whose times a factor lengthens.
   static std::string processes(const std::string& side, const std::string& name, double factor,
                                double spread) {
     std::string files = " --" + side;

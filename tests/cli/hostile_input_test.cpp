@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-/// Hostile files, flags and surroundings through the real program: each ends at once, with the right exit code,
-/// a message that names file, place and remedy, and every other file as it was.
+/// Hostile files, flags and surroundings, through the real program: each case ends at once with its
+/// exit code and a message that names file, place and remedy. Every other file stays as it was.
 namespace lmdbench::testing {
 namespace {
 
@@ -24,7 +24,7 @@ using ::testing::Not;
 
 const std::string SHORT = SHAPES + "--set /frames=20 --set /driver/repetitions=1 ";
 
-/// Of a case, as the system counts it, whatever else the machine does.
+/// Limit of processor time of a case: it does not depend on the load of the machine.
 const std::string PROCESSOR_SECONDS = "20";
 
 class HostileInput : public ::testing::Test {
@@ -241,7 +241,7 @@ TEST_F(HostileInput, PathsThatLastForEver) {
               AllOf(HasSubstr("/frame_rate_hz"), HasSubstr("100000"), HasSubstr("remedy")));
 }
 
-/// What has room for many triangles at one vertex is answered, by every method but the one that tries all pairs.
+/// Every method but `exhaustive` answers on a mesh that may have this many triangles at one vertex.
 TEST_F(HostileInput, HubsAndLargePolygonsAreAnswered) {
   const auto cone = [](int around) {
     std::string text = "OFF\n" + std::to_string(around + 1) + " " + std::to_string(around) + " 0\n0 0 0\n";
@@ -269,14 +269,14 @@ TEST_F(HostileInput, HubsAndLargePolygonsAreAnswered) {
       EXPECT_EQ(outcome.code, 0) << method << mesh << outcome.err;
     }
   }
-  // Two of them meet in as many pairs as both have triangles, multiplied.
+  // At two hubs the number of triangle pairs is the product of their numbers of triangles.
   EXPECT_THAT(refusal("query --moving " + path("hub.off") + " --fixed " + path("hub.off") + " --cutoff 0.1",
                       INPUT_DATA),
               AllOf(HasSubstr("vertex 0"), HasSubstr("--limit vertex-pairs=")));
 }
 
 TEST_F(HostileInput, PathsThatTakeForEverEndAtTheirLimit) {
-  // A gap far beyond the meshes' sizes: all pairs of triangles are about equally near.
+  // The gap is far larger than the meshes: all pairs of triangles are about equally near.
   const std::string spec = write(
       "far.json",
       R"({"moving": {"mesh": "sphere", "diagonal_m": 1e-6}, "fixed": {"mesh": "sphere", "diagonal_m": 1e-6},

@@ -26,7 +26,7 @@ PROCESSOR_SECONDS = 20  # of a process and its children; what hangs is ended by 
 PATH_SECONDS = 3        # for path specifications, in place of ten minutes
 WALL_SECONDS = 300      # of what neither works nor ends: it waits for something
 CONTROL = re.compile(rb"[\x00-\x08\x0b-\x1f\x7f]")
-# Experiments and sweeps name other files; those may be at fault, and their names are damaged, too.
+# Experiments and sweeps name other files: an error may name one of those, even by a damaged name.
 FILE_NAME = re.compile(rb"error: [^ ]+\.[^ /]+: ")
 NUMBERS = [b"0", b"-1", b"1e308", b"-1e308", b"1e-310", b"1e999", b"nan", b"inf", b"2147483647", b"4294967296",
            b"9223372036854775807", b"18446744073709551614", b"0.5", b"1e-9", b"1000000", b"\xff", b"", b"0x10", b"1,5"]
@@ -130,7 +130,7 @@ def main():
     program = os.path.abspath(arguments.program)
     info = [program, "mesh", "info", "{file}"]
     meshes = str(arguments.source / "meshes")
-    # The limit on time, lowered: what takes minutes is told before the processor time of a case is over.
+    # A lower limit of time: a slow path must say so before the processor time of its case is over.
     generate = [program, "--limit", f"path-seconds={PATH_SECONDS}", "path", "generate", "{file}", "--out", "path.tum",
                 "--dir", meshes]
     formats = [

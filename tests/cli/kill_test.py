@@ -70,7 +70,7 @@ def check_part(part, whole):
             expected = reference[f"methods/{label}/force"][()][:frames]
             if group["force"][()][:frames].tobytes() != expected.tobytes():
                 problems.append(f"{label}: other forces than the uninterrupted run's")
-        # The count follows the frame itself, so that it may be one behind.
+        # The count is written after the frame, so it may be one behind.
         if not 0 <= counted - int(file["frames_measured"][0]) <= 1:
             problems.append(f"{counted} frames have times, {int(file['frames_measured'][0])} are counted")
     return problems
@@ -133,7 +133,7 @@ def main():
             by_signal[sent.name] = by_signal.get(sent.name, 0) + 1
             process.send_signal(sent)
             errors = process.communicate()[1]
-            if process.returncode == 0:  # it was through: begin again
+            if process.returncode == 0:  # it had finished: begin again
                 finished += 1
                 if os.path.exists(out):
                     failures += [f"kill {kill}: {name} differs in the finished result"

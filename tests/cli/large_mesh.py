@@ -61,7 +61,7 @@ def main():
     if memory < arguments.triangles * MEMORY_PER_TRIANGLE:
         print(f"skipped: {memory >> 30} GB of memory are too little for the mesh")
         return SKIPPED
-    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))  # an error of the program, not the end of others
+    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))  # fails the program alone
     failures = []
     with tempfile.TemporaryDirectory(prefix="lmdbench-large-", dir=arguments.folder) as folder:
         mesh = os.path.join(folder, "sheet.off")

@@ -26,7 +26,7 @@ inline constexpr int INPUT_DATA = 3;
 inline constexpr int ENVIRONMENT = 4;
 
 inline const std::string SHAPES_FILE = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
-/// As an argument of a shell's command, with a blank behind it.
+/// An argument for a shell's command, followed by a blank.
 inline const std::string SHAPES = "'" + SHAPES_FILE + "' ";
 
 struct Outcome {
@@ -35,9 +35,9 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs `lmdbench ARGUMENTS` in a shell; the arguments may redirect and go on with other commands.
+/// Runs `lmdbench ARGUMENTS` in a shell; the arguments may redirect and add other commands.
 /// @param directory working directory
-/// @param processor_seconds a process that takes longer is ended by a signal; not limited without it
+/// @param processor_seconds a signal ends a process that takes longer; no limit without it
 inline Outcome lmdbench(const std::string& arguments,
                         const std::filesystem::path& directory = LMDBENCH_SOURCE_DIR,
                         const std::string& processor_seconds = "unlimited") {

@@ -34,7 +34,7 @@ TEST(ProgressLine, KeepsItsLength) {
   EXPECT_THAT(progress_line("truth", 0, 0, 1.0), HasSubstr("100 %")) << "nothing to do is done";
 }
 
-/// What standard error, here no terminal, gets in two updates.
+/// The output of two updates to standard error, which is no terminal here.
 std::string lines_of(bool enabled, std::chrono::milliseconds silence) {
   ::testing::internal::CaptureStderr();
   {

@@ -45,7 +45,7 @@ PREDICTED = ['/methods=[{"name":"improved"}]', "/driver/prediction=linear", "/dr
 CLOCK = ["/driver/kind=realtime", "/driver/realtime/floor_s=0.005", "/driver/realtime/lock_memory=false"]
 TRACKED = ['/methods=[{"name":"improved"}]']
 
-# Of the program, with what is set; OUT is a folder of the use, SCENE the experiment.
+# Arguments of the program for each use; OUT is a folder of the use, SCENE the experiment.
 USES = {
     "open loop": ("run SCENE --out OUT/result.h5", ["/record/lmds=true"]),
     "closed loop": ("run SCENE --out OUT/result.h5", CLOSED),
@@ -102,7 +102,7 @@ def call(program, use, number, folder):
     for change in changes:
         words += ["--set", change]
     done = subprocess.run([program] + words, capture_output=True, text=True, check=False)
-    if use == "`work-precision`" and "failed" in done.stdout:  # points, which the others need not share
+    if use == "`work-precision`" and "failed" in done.stdout:  # points, which others need not share
         return 2, done.stdout
     return done.returncode, done.stderr
 
@@ -127,7 +127,7 @@ def main():
         folder = pathlib.Path(name)
         write_scenes(folder, arguments.source)
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            # The open loop first: pages and exports are of its results.
+            # The open loop runs first: pages and exports need its results.
             for uses in (["open loop"], [use for use in USES if use not in ("open loop", "3D view")]):
                 cases = [(kind, use) for use in uses for kind in KINDS]
                 done = pool.map(lambda case: call(arguments.program, case[1], list(KINDS).index(case[0]), folder), cases)

@@ -158,7 +158,7 @@ class Surroundings(unittest.TestCase):
 
     def test_full_disk(self):
         run = " ".join(f"'{part}'" for part in [PROGRAM, *self.short_run("r.h5")])
-        # The first run finds room, the second one does not: the first result stays, whole and alone.
+        # The first run has room, the second has not: the first result stays whole, nothing else.
         done = self.on_small_disk(f"{run} && cp r.h5 kept && dd if=/dev/zero of=filler bs=1k; rm -f p; "
                                   f"{run}; echo code $?; cmp r.h5 kept && ls", 4000)
         if done is None:
@@ -287,7 +287,7 @@ class Surroundings(unittest.TestCase):
         sweep = self.sweep(3)
         self.assertEqual(self.run_program(["work-precision", sweep, "--out", "whole.h5"]).returncode, DONE)
         journal, resumed = self.folder / "s.h5.points.jsonl", 0
-        for lines in range(2, 40, 3):  # killed when the journal has so many: the first says what it is
+        for lines in range(2, 40, 3):  # lines of the journal at the kill; the first describes the sweep
             process = self.started("work-precision", sweep, "--out", "s.h5")
             while process.poll() is None:
                 if journal.exists() and journal.read_bytes().count(b"\n") >= lines:
@@ -310,7 +310,7 @@ class Surroundings(unittest.TestCase):
     def test_inputs_that_change_during_a_sweep(self):
         mesh, _ = self.own_experiment()
         sweep = json.loads(self.sweep(20).read_text())
-        sweep["experiments"] = [self.shapes, "own.json"]  # one after the other; the second one is read when its turn comes
+        sweep["experiments"] = [self.shapes, "own.json"]  # each is read when its turn comes
         (self.folder / "sweep.json").write_text(json.dumps(sweep))
         process = self.started("work-precision", "sweep.json", "--out", "s.h5")
         journal = self.folder / "s.h5.points.jsonl"
@@ -351,7 +351,7 @@ class Surroundings(unittest.TestCase):
         """The message of `compare` for a copy of a result that was altered; the same for `report`."""
         shutil.copy(self.folder / "r.h5", self.folder / "bad.h5")
         with h5py.File(self.folder / "bad.h5", "r+") as file:
-            del file.attrs["content_sha256"]  # changed on purpose
+            del file.attrs["content_sha256"]  # on purpose
             alter(file)
         for arguments in (["compare", "bad.h5", "r.h5"], ["compare", "r.h5", "bad.h5"],
                           ["report", "bad.h5", "--out", "page"]):
@@ -379,11 +379,11 @@ class Surroundings(unittest.TestCase):
                 n, (10**15, 3), "f8", chunks=(1000, 3))),
         }
         for name, alter in alterations.items():
-            # A page takes two seconds: those whose damage the program does not see before it.
+            # A page takes two seconds: only for damage that the program does not see before.
             for arguments, done in self.altered(alter, name in ("format_version", "text", "shape")):
                 with self.subTest(alteration=name, arguments=arguments):
-                    # A page is made of what there is; a comparison may tell what is missing as a difference, and of one process a side
-                    # it is unsure.
+                    # A page needs no dataset that is missing; a comparison may call a missing one a
+                    # difference, and is unsure with one process a side.
                     self.assertIn(done.returncode, (DONE, 1, INPUT_DATA, 4), done.stderr)
                     if name in ("format_version", "links", "other files", "huge"):
                         if arguments[0] == "compare" or name == "format_version":

@@ -15,8 +15,8 @@ import subprocess
 import time
 
 PROGRAMS = ("munged", "munge", "slurmctld", "slurmd", "sbatch", "scontrol", "squeue", "runuser")
-# cgroup/v1 loads and touches nothing while processes are tracked by linuxproc and tasks are bound by nobody; left to itself slurmd
-# looks for a cgroup version and gives up where it finds neither, as in many containers.
+# cgroup/v1 does nothing while linuxproc tracks processes and nothing binds tasks. Without a choice
+# slurmd looks for a cgroup version, and gives up where it finds none, as in many containers.
 CGROUP_CONF = "CgroupPlugin=cgroup/v1\n"
 SLURM_CONF = """ClusterName=lmdbench
 SlurmctldHost={host}(127.0.0.1)

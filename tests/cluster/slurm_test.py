@@ -24,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLUSTER = ROOT / "scripts" / "cluster"
 SKIPPED = 77
 POINTS, REPETITIONS = 50, 2
-# What hangs on times or on where they were measured; all else has to be the same bits.
+# Fields that depend on times or on the machine; all others must have the same bits.
 TIMED = {"processor_share", "search_share", "frames_late", "on_front", "where", "begun"}
 
 
@@ -74,7 +74,7 @@ class Slurm(unittest.TestCase):
                 try:
                     lines.append(json.loads(line))
                 except ValueError:
-                    continue  # cut off by the kill
+                    continue  # the kill cut it off
         return lines
 
     def points_done(self):
@@ -112,7 +112,7 @@ class Slurm(unittest.TestCase):
             jobs = self.working_jobs(cluster)
             if len(jobs) < 2 and time.monotonic() < end - 60:
                 continue
-            # Held, so that none gets to the end of its point between the look and the kill.
+            # The processes are stopped, so that none ends its point between the look and the kill.
             for process in (process for processes in jobs.values() for process in processes):
                 cluster.kill(process, signal.SIGSTOP)
             middle = self.jobs_in_the_middle()
@@ -143,7 +143,7 @@ class Slurm(unittest.TestCase):
                     self.assertIsNone(run.poll(), "ended before the kill")
                     before = self.points_done()
                     killed = self.kill_the_node(cluster)
-                    time.sleep(12)  # longer than SlurmdTimeout: the controller takes the node for dead
+                    time.sleep(12)  # longer than SlurmdTimeout
                     cluster.start_node()
                     code = run.wait(900)
                 finally:
@@ -180,7 +180,7 @@ class Slurm(unittest.TestCase):
             self.assertIn("exclusive", where)
             self.assertGreater(where["job"], 0)
 
-        # The log names what was done again: the program's, by point, and Slurm's restarts, by job.
+        # The log names what was done again: the program's points, and Slurm's restarts by job.
         told = [line for line in said.splitlines() if "done again: point" in line]
         self.assertEqual(len(told), len(again), said[-3000:])
         jobs_log = (self.work / "out.h5.points" / "jobs.log").read_text()
@@ -205,7 +205,7 @@ class Slurm(unittest.TestCase):
         print(f"{POINTS} points in {took:.0f} s; {before} were done when the node failed with {killed} jobs at work; "
               f"{len(again)} traversals were begun again, in jobs {sorted(restarted)}", file=sys.stderr)
 
-        # Everything is done: another call measures nothing.
+        # Everything is done: a second call measures nothing.
         with slurm_cluster.Cluster(self.fresh("slurm"), processors=2) as cluster:
             size = sum(part.stat().st_size for part in self.work.glob("out.h5.points/*.jsonl"))
             done = subprocess.run(self.snakemake(cluster.environment, "slurm", "sweep=sweep.json", "out=out.h5"), cwd=self.work,

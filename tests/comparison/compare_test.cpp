@@ -93,7 +93,7 @@ TEST_F(Compare, MoreWorkIsNamed) {
 }
 
 TEST_F(Compare, StagesShareTheFalseAlarm) {
-  // 5 x 5: 1 order in 252, 0.4 %. Enough for 1 % alone, too much for one of three stages that share it.
+  // 5 x 5: 1 order in 252, 0.4 %: enough for 1 % alone, too much for 1 % shared by three stages.
   SyntheticResult slow;
   slow.slowdown["original/search"] = 1.15;
   EXPECT_EQ(compare_results(side({}, "a", 5), side(slow, "b", 5), {}).verdict, Verdict::UNSURE);
@@ -185,7 +185,7 @@ TEST_F(Compare, ResultsOfOtherFramesAreRefusedInOneLine) {
   EXPECT_THAT(refusal(side(original, "a", 1), side(methods, "b", 1)), HasSubstr("no method of the base"));
 }
 
-/// The force constants of the scene follow from the experiment, which names them once.
+/// The scene's force constants follow from the experiment, so the report names their cause once.
 TEST_F(Compare, OtherSettingsOnTheSameFramesAreNamedFirstAndTimed) {
   SyntheticResult cutoff;
   cutoff.cutoff = 0.02;

@@ -85,7 +85,7 @@ TEST(NoiseFloor, SpreadIsOfSumsOfMinima) {
 }
 
 TEST(NoiseFloor, DetectableIsWhatACompareWouldSay) {
-  // 24 groups of one piece: in the first 12 both sides alternate between 1 and 1.1, in the others they are 2 and 2.
+  // 24 groups of one piece: both sides alternate between 1 and 1.1 in the first 12, then are 2.
   std::vector<double> times;
   for (int i = 0; i < 12; ++i) times.push_back(i % 4 < 2 ? 1.0 : 1.1);
   times.insert(times.end(), 12, 2.0);

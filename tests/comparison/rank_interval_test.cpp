@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-/// P(U <= u) by its definition: the share of all assignments of the pooled places to the sides.
+/// P(U <= u) by its definition: the share of all assignments of the pooled ranks to the sides.
 double probability(std::size_t base, std::size_t candidate, std::size_t u) {
   double all = 0.0, found = 0.0;
   for (unsigned mask = 0; mask < 1U << (base + candidate); ++mask) {
@@ -44,7 +44,7 @@ TEST(RankBound, IsTheLargestThatKeepsTheError) {
 }
 
 TEST(RankBound, PublishedTable) {
-  // Critical values of U, one-sided 0.025 (Mann and Whitney 1947; tables since): reject at and below.
+  // Critical values of U, one-sided 0.025 (Mann and Whitney 1947, and later tables).
   EXPECT_EQ(rank_bound(8, 8, 0.025), 13U + 1U);
   EXPECT_EQ(rank_bound(5, 9, 0.025), 7U + 1U);
   EXPECT_EQ(rank_bound(20, 20, 0.025), 127U + 1U);
@@ -71,8 +71,8 @@ TEST(Pairings, AreAllDifferencesInOrder) {
 }
 
 TEST(Pairings, IntervalMissesTheShiftAsOftenAsTheBoundSays) {
-  // Heavy tails and a few processes that were held up: nothing but the order counts. With continuous values the share is
-  // exact: 12 x 6 at 0.05 misses in P(U <= 17).
+  // Heavy tails and a few delayed processes: only the order counts. With continuous values the
+  // share is exact: 12 x 6 at 0.05 misses in P(U <= 17).
   constexpr int TRIALS = 4000;
   const std::size_t bound = rank_bound(12, 6, 0.05);
   std::mt19937_64 random(7);
@@ -86,7 +86,7 @@ TEST(Pairings, IntervalMissesTheShiftAsOftenAsTheBoundSays) {
     below += 5.0 < pairings.low(bound) ? 1 : 0;
     above += 5.0 > pairings.high(bound) ? 1 : 0;
   }
-  // P(U <= 17) = 0.0494 (18,564 orders); three deviations of 4,000 trials are 0.0103.
+  // P(U <= 17) = 0.0494 (18,564 orders); three standard deviations of 4,000 trials are 0.0103.
   EXPECT_NEAR(below / static_cast<double>(TRIALS), 0.047, 0.0115);
   EXPECT_NEAR(above / static_cast<double>(TRIALS), 0.047, 0.0115);
 }

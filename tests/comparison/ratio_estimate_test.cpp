@@ -36,13 +36,13 @@ TEST(RatioEstimate, ASingleProcessHasNoIntervalHoweverManyTheOtherSideHas) {
 }
 
 TEST(RatioEstimate, RatioIsTheMedianOfAllPairings) {
-  // Pairings: 2/1, 2/2, 2/4, 6/1, 6/2, 6/4; medians of the logarithms lie between 1.5 and 2.
+  // Pairings: 2/1, 2/2, 2/4, 6/1, 6/2, 6/4; the median of logarithms is between those of 1.5 and 2.
   const RatioEstimate estimate = estimate_ratio(std::vector<double>{1, 2, 4}, std::vector<double>{2, 6}, 0.1);
   EXPECT_NEAR(estimate.ratio, std::sqrt(1.5 * 2.0), 1e-12);
 }
 
 TEST(RatioEstimate, EndsArePairingsThatTheRankTestNames) {
-  // 3 x 3: at 0.05 the extreme pairings (1 order of 20); 0.01 is out of reach, so the alarm has none.
+  // 3 x 3: the ends are the extreme pairings at 0.05 (1 order of 20); an alarm at 0.01 needs more.
   const RatioEstimate estimate =
       estimate_ratio(std::vector<double>{1, 2, 3}, std::vector<double>{4, 5, 6}, 0.01);
   EXPECT_NEAR(estimate.low, 4.0 / 3.0, 1e-12);
@@ -67,7 +67,7 @@ TEST(RatioEstimate, AnAlarmsIntervalIsTheWider) {
 }
 
 TEST(RatioEstimate, AHandfulOfProcessesThatWereHeldUpHidesNothing) {
-  // The old rule's weakness: one outlier in ten widened Student's interval over any slowdown.
+  // One outlier in ten must not widen the interval, as it widens Student's.
   std::mt19937_64 random(4);
   std::vector<double> base = processes(random, 12, 1.0, 0.005), candidate = processes(random, 10, 1.1, 0.005);
   base[5] *= 1.5;
@@ -85,7 +85,7 @@ TEST(ProcessesNeeded, ShrinkTheIntervalOfTheRatioSeen) {
   EXPECT_GT(needed, 8U);
   EXPECT_LT(needed, 100U);
   EXPECT_GT(processes_needed(estimate, 8, 0.03, 0.001), needed);
-  // So many processes, with this noise, end in a verdict more often than not.
+  // With this noise so many processes give a verdict more often than not.
   int ended = 0;
   for (int i = 0; i < 20; ++i) {
     const RatioEstimate more = estimate_ratio(processes(random, needed, 1.0, 0.04),
@@ -100,7 +100,7 @@ TEST(ProcessesNeeded, ShrinkTheIntervalOfTheRatioSeen) {
 TEST(ProcessesNeeded, AreEnoughForTheRankTest) {
   const RatioEstimate estimate =
       estimate_ratio(std::vector<double>{1.0, 1.1}, std::vector<double>{1.0, 1.2}, 0.001);
-  EXPECT_EQ(processes_needed(estimate, 2, 0.05, 0.001), 7U);  // 1 in C(14, 7) = 3432; C(12, 6) = 924
+  EXPECT_EQ(processes_needed(estimate, 2, 0.05, 0.001), 7U);  // C(14, 7) = 3432, C(12, 6) = 924
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
 
 class StageTimesOf : public ::testing::Test {
  protected:
-  /// A method with these times of its search, four repetitions of which the first warms up.
+  /// A method with these search times in four repetitions, the first of which warms up.
   ResultReader file(const std::vector<double>& times) {
     ResultWriter writer(scratch_ / "a.h5");
     writer.attribute("/", "format", RESULT_FORMAT);
@@ -35,7 +35,7 @@ class StageTimesOf : public ::testing::Test {
 };
 
 TEST_F(StageTimesOf, LeastOfTheMeasuredRepetitionsOfEveryFrameSummed) {
-  // Columns: the least stands in another repetition each; the warm-up would be less than all.
+  // Each column has its least time in another repetition; the warm-up is faster than all.
   const ResultReader result = file({0.5, 0.5, 0.5,  //
                                     1.0, 9.0, 8.0,  //
                                     7.0, 2.0, 9.0,  //

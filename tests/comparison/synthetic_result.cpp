@@ -48,7 +48,7 @@ void write_lists(ResultWriter& writer, const SyntheticResult& result, const std:
   write_real(writer, group + "/distance", distances, {distances.size()}, "m");
 }
 
-/// (repetition, column) times, all alike but for the warm-up and the spike.
+/// (repetition, column) times, all equal except for the warm-up and the spike.
 void write_times(ResultWriter& writer, const SyntheticResult& result, const std::string& path, double seconds,
                  int columns, const std::string& stage) {
   if (!result.times) return;

@@ -7,23 +7,23 @@
 #include <string>
 #include <vector>
 
-/// Small result files of the real format whose every value a test can choose.
+/// Small result files in the real format; a test can choose every value.
 namespace lmdbench::testing {
 
-/// Two methods, "original" (searches every 5 frames) and "certified" (whole search in every frame), ten frames, three
-/// repetitions of which the first one warms up.
+/// Two methods, "original" (searches every 5 frames) and "certified" (whole search in every frame),
+/// ten frames, three repetitions of which the first one warms up.
 struct SyntheticResult {
   std::vector<std::string> methods{"original", "certified"};  ///< In the order of the experiment
-  double cutoff = 0.01;                                       ///< As the experiment says
-  double scene_cutoff = 0.0;  ///< As the program took it; 0: as the experiment says
-  bool sweep = false;         ///< What `work-precision` writes has a group /sweep
+  double cutoff = 0.01;                                       ///< As in the experiment
+  double scene_cutoff = 0.0;  ///< As the program took it; 0: as in the experiment
+  bool sweep = false;         ///< Whether there is a group /sweep, as `work-precision` writes
   std::string moving_hash = "aa";
   std::string moving = "{}";               ///< JSON of /moving in the experiment
   std::string vertices_hash;               ///< Of the files that deform it; "" for none
   std::map<std::string, double> slowdown;  ///< "original/search": factor on its times
   double process_factor = 1.0;             ///< On all times
-  double jitter = 0.0;                     ///< Added to the times of frame 0, to make files differ [s]
-  int spike_frame = -1;                    ///< A neighbour takes 1 ms here, in one measured repetition only
+  double jitter = 0.0;                     ///< Added to times of frame 0, so that files differ [s]
+  int spike_frame = -1;                    ///< 1 ms longer, in one measured repetition
   int frame_with_other_force = -1;         ///< Last bit of original's force z
   int frame_with_lost_lmd = -1;            ///< certified
   int search_with_more_work = -1;          ///< original: node_pairs of that search

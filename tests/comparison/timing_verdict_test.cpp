@@ -53,7 +53,7 @@ TEST(TimingVerdict, NoiseMakesUnsureAndSaysHowManyProcessesWouldDo) {
 }
 
 TEST(TimingVerdict, TooFewForARankTestAreUnsure) {
-  // 3 x 3: 1 order in 20 at best, enough for an interval (same), too much for an alarm (slower).
+  // 3 x 3: 1 order in 20 at best: enough for an interval (same), not for an alarm (slower).
   const Timing timing = judge_timing(spaced(3, 1.0, 0.002), spaced(3, 4.0, 0.002), LEAST_EFFECT, ERROR);
   EXPECT_EQ(timing.verdict, Verdict::UNSURE);
   EXPECT_EQ(timing.processes_needed, 7U);
@@ -63,7 +63,7 @@ TEST(TimingVerdict, TooFewForARankTestAreUnsure) {
 }
 
 TEST(TimingVerdict, SlowerNeedsTheAlarmsIntervalAboveOne) {
-  // 7 x 7 at 0.001: bound 2 of 3432 orders (1 + 1 + 2 + ... at most 3.4), so the third smallest pairing decides.
+  // 7 x 7 at 0.001: bound 2 (of 3432 orders 1 + 1 + 2 + ... <= 3.4): the third smallest decides.
   std::vector<double> base = spaced(7, 1.0, 0.001), candidate = spaced(7, 1.2, 0.001);
   EXPECT_EQ(verdict(base, candidate), Verdict::SLOWER);
   candidate[0] = 0.5 * (base[5] + base[6]);  // one pairing of 49 says faster

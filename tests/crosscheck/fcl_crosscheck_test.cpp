@@ -31,8 +31,8 @@ Surface cube_surface(double edge, const Vec3& centre_W = Vec3::Zero()) {
   return build_surface(std::move(mesh));
 }
 
-/// Stands a cube of the given edge on one corner, the corner `gap` above the top face (z = edge / 2) of an
-/// equal cube and over the inside of one of its triangles. The true distance is the gap.
+/// A pose in which a cube stands on one corner, `gap` above the top face (z = edge / 2) of an equal
+/// cube, over the inside of one of its triangles. The true distance is the gap.
 Pose corner_over_face(double edge, double gap) {
   const Vec3 corner = Vec3::Constant(-0.5 * edge);
   const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(corner, -Vec3::UnitZ());
@@ -75,8 +75,8 @@ TEST(FclCrosscheck, SaysOnlyYesInContact) {
   EXPECT_TRUE(result.point_fixed.array().isNaN().all());
 }
 
-/// Pins why the meshes are scaled: at an edge length of 1e-4 the squared cross product of two edges is 1e-16,
-/// under FCL's absolute 1e-15, so its kernel overlooks the face below the corner.
+/// Why the meshes are scaled: at an edge length of 1e-4 the squared cross product of two edges is
+/// 1e-16, less than FCL's absolute 1e-15, so that its kernel overlooks the face below the corner.
 TEST(FclCrosscheck, ScalingIsNeededForSmallTriangles) {
   constexpr double EDGE = 1e-4;
   constexpr double GAP = 1e-6;

@@ -9,7 +9,7 @@
 namespace lmdbench {
 namespace {
 
-/// A triangle in the plane z = 0 and another that stands on its first corner over the first one's inside.
+/// A triangle in the plane z = 0; `standing_triangle` has its first corner over that one's inside.
 Triangle floor_triangle(double size) {
   return {size * Vec3(-1, -1, 0), size * Vec3(1, -1, 0), size * Vec3(0, 1, 0)};
 }

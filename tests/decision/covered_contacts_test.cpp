@@ -34,7 +34,7 @@ TriangleMesh plate() {
   return make_box({3.0, 3.0, 0.2}, 1);
 }
 
-/// LMDs of contacts from which nothing is dropped.
+/// LMDs of contacts when none is dropped as covered.
 LmdSet joined_whole(const ShapePair& pair, ContactSet contacts) {
   for (Contact& contact : contacts.contacts) contact.is_whole = false;
   LmdSet lmds = testing::joined(pair, contacts);
@@ -45,7 +45,7 @@ std::size_t covered(const ShapePair& pair, ContactSet contacts) {
   return take_covered(pair, contacts.contacts).size();
 }
 
-/// Moved so that it stands on the plane z = 0, or hangs under it, its middle over the origin.
+/// Puts the mesh on the plane z = 0, or hangs it below, with its middle over the origin.
 TriangleMesh at_plane(TriangleMesh mesh, bool stands) {
   Eigen::AlignedBox3d box;
   for (const Vec3& v : mesh.vertices) box.extend(v);
@@ -72,7 +72,7 @@ TEST(CoveredContacts, LmdsAreTheSameWithoutWhatIsCovered) {
         return k % 3 == 2 ? testing::rounded_to_floats(std::move(result)) : result;
       };
       ShapeScene scene(placed(moving, true), placed(fixed, false));
-      // Gaps from next to touch on; tilts that the tolerance explains, and others.
+      // Gaps from almost touching; tilts within the tolerance and beyond it.
       const double gap = std::pow(10.0, -8.0 + 7.0 * uniform(random));
       const double tilt = k % 4 == 0 ? 0.0 : std::pow(10.0, -12.0 + 8.0 * uniform(random));
       const Pose pose =
@@ -109,7 +109,7 @@ TEST(CoveredContacts, KeepsTheBorderAndAllNextToTouch) {
 }
 
 TEST(CoveredContacts, TwoShouldersThatAWallJoinsAreOneLmd) {
-  // A T whose neck goes through the plate: along its ends a level way leads from corner to corner of the shoulders.
+  // The T's neck goes through the plate; along it a level path joins the shoulders' corners.
   const TriangleMesh nut = testing::make_voxels({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 1}});
   ShapeScene scene(nut, translated(make_box({9.0, 9.0, 0.5}), Vec3(1.5, 0.5, 1.375)), 0.5);
   const ShapePair pair = scene.at(Pose{});
@@ -124,7 +124,7 @@ TEST(CoveredContacts, TwoShouldersThatAWallJoinsAreOneLmd) {
 }
 
 TEST(CoveredContacts, APolygonOverOneLegDoesNotSpeakForTheOther) {
-  // A bar over both legs of a U, tilted: level to the tolerance over the narrow one alone.
+  // A tilted bar over both legs of a U: it is level to the tolerance over the narrow leg alone.
   ShapeScene scene(
       at_plane(make_box({0.8, 0.2, 0.1}), true),
       testing::sheet_of({"##########", "#.########", "#.########", "#.########", "#.########"}, 0.1));
@@ -145,7 +145,7 @@ TEST(CoveredContacts, APolygonOverOneLegDoesNotSpeakForTheOther) {
 }
 
 TEST(CoveredContacts, WithoutAPairOfPointsThereIsNoLmd) {
-  // Level to the tolerance, but all round its border leads down.
+  // The recess is level to the tolerance, but all round its border the distance decreases.
   const TriangleMesh recess = testing::make_voxels({{0, 0, 0},
                                                     {1, 0, 0},
                                                     {2, 0, 0},

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-/// Each row of the table of DEFINITION.md, closed at its boundary.
+/// Each row of the table of DEFINITION.md, and that it holds at its boundary.
 namespace lmdbench {
 namespace {
 
@@ -46,7 +46,7 @@ std::vector<std::string> kinds_of(const ContactSet& set, double nearer_than) {
 }
 using Kinds = std::vector<std::string>;
 
-/// What every contact promises.
+/// Invariants of every contact.
 void expect_sound(const ShapePair& pair, const ContactSet& set) {
   for (const Contact& c : set.contacts) {
     SCOPED_TRACE(kind_of(c));
@@ -68,7 +68,7 @@ void expect_sound(const ShapePair& pair, const ContactSet& set) {
   }
 }
 
-/// A box that stands on one corner, the lowest, which is at the origin.
+/// A box that stands on its lowest corner, which is at the origin.
 TriangleMesh on_a_corner() {
   TriangleMesh mesh = translated(make_box({1.0, 1.0, 1.0}), Vec3(0.5, 0.5, 0.5));
   Pose pose;
@@ -101,7 +101,7 @@ TEST(Decide, ACornerOverAFaceItsEdgeAndItsCorner) {
             expect_sound(pair, set);
             const Kinds kinds = kinds_of(set, 0.5);
             SCOPED_TRACE(::testing::Message() << out_x << " " << out_y);
-            // What holds by more than rounding is found, what fails by more is not: wings are 2 long, the distance is .1.
+            // A condition is clear by more than rounding: wings are 2 long, the distance is .1.
             const double unsure = 30.0 * pair.tolerance.rounding;
             const auto count = [&](const char* kind) { return std::ranges::count(kinds, kind); };
             const auto expect = [&](bool yes, bool no, const char* kind) {
@@ -121,7 +121,7 @@ TEST(Decide, ACornerOverAFaceItsEdgeAndItsCorner) {
   }
 }
 
-/// Tetrahedron 1 high on its tip, which is at the origin and has nearly all directions that lead down in its cone.
+/// A tetrahedron on its tip at the origin, whose cone has nearly all downward directions.
 TriangleMesh needle() {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {0.02, 0, 1}, {-0.01, 0.017, 1}, {-0.01, -0.017, 1}};
@@ -130,8 +130,8 @@ TriangleMesh needle() {
 }
 
 TEST(Decide, TheEndOfAHolesSideIsNoPlaceToStopAt) {
-  // A point beside a side of the hole whose foot on another side is that side's end: there the border turns inwards, and a way
-  // along it leads down to where the point is over it.
+  // A point above one side of the hole, whose nearest point on another side is that side's end. The
+  // border turns inwards there, so the distance decreases along it, to the point below.
   const TriangleMesh plate =
       make_sleeve(polygon_outline(4, 1.0), polygon_outline(4, 0.25), {.height = 0.5, .around = 4});
   for (const Pose& whole : {Pose{}, testing::pose_of_seed(5)}) {
@@ -146,7 +146,7 @@ TEST(Decide, TheEndOfAHolesSideIsNoPlaceToStopAt) {
         const Vec3 end = hole[k], next = hole[sign > 0.0 ? (k + 1) % 4 : (k + 3) % 4];
         const Vec3 p = end + 0.2 * (next - end) + 0.01 * Vec3::UnitZ();
         const ContactSet set = scene.contacts(whole * moved(p.x(), p.y(), p.z()));
-        // Over the side that it stands above, and nowhere else near.
+        // The only contact nearby is with the side below.
         std::size_t near = 0;
         for (const Contact& c : set.contacts) {
           if (c.moving.kind != FeatureKind::VERTEX || c.distance > 0.2) continue;
@@ -162,7 +162,7 @@ TEST(Decide, ACornerBelowAFaceHasNoContactWithIt) {
   ShapeScene scene(on_a_corner(), table());
   for (const double depth : {1e-9, 1e-3, 0.3})
     EXPECT_EQ(std::ranges::count(kinds_of(scene.contacts(moved(0.0, 0.0, -depth)), 1e9), "VF0"), 0) << depth;
-  // Down to touch it is there, and it knows its direction.
+  // Down to distance 0 the contact exists and has its direction.
   for (const double height : {0.0, 1e-15, 1e-12, 1e-7}) {
     const ContactSet set = scene.contacts(moved(0.25, 0.0, height));
     const auto found =
@@ -189,7 +189,7 @@ TEST(Decide, ChainsThatCrossUpToTheirEnds) {
   for (const Pose& whole : {Pose{}, testing::pose_of_seed(4)}) {
     ShapeScene scene(edge_down(), testing::placed(edge_up(), whole));
     for (const double angle : {0.5 * std::numbers::pi, 0.3, 1e-2, 1e-4, 1e-6}) {
-      // The crossing at a place of the moving chain that runs over its end.
+      // The crossing moves along the moving chain and beyond its end.
       for (const double beyond : {-0.5, -1e-3, -1e-9, 0.0, 1e-9, 1e-3}) {
         const Vec3 along(std::cos(angle), std::sin(angle), 0.0);
         Pose pose = turned_by(angle, Vec3::UnitZ(), -(1.0 + beyond) * along + Vec3(0.2, 0.0, 0.05));
@@ -199,7 +199,7 @@ TEST(Decide, ChainsThatCrossUpToTheirEnds) {
         const auto crossings = std::ranges::count_if(set.contacts, [](const Contact& c) {
           return kind_of(c) == "EE0" && std::abs(c.distance - 0.05) < 1e-12;
         });
-        // The gap times what is not known of the common perpendicular, besides what is not known of each place.
+        // The gap times the error of the common perpendicular, and the error of each place.
         const double sine = std::sin(angle),
                      unsure = 4.0 * pair.tolerance.rounding * (1.0 + 0.05 / sine) / sine;
         SCOPED_TRACE(::testing::Message() << "angle " << angle << " beyond " << beyond);
@@ -216,7 +216,7 @@ TEST(Decide, ChainsThatCrossUpToTheirEnds) {
 }
 
 TEST(Decide, ChainsThatPassSideBySideShareNothing) {
-  // Next to parallel, feet far beyond the ends.
+  // Nearly parallel chains; the feet of the common perpendicular are far beyond the ends.
   ShapeScene scene(edge_down(), edge_up());
   for (const double angle : {1e-6, 1e-4, 1e-2}) {
     const ContactSet set = scene.contacts(turned_by(angle, Vec3::UnitZ(), Vec3(0.0, 0.3, 0.05)));
@@ -249,13 +249,13 @@ TEST(Decide, ParallelChainsShareWhereTheyFaceEachOther) {
     }
     EXPECT_TRUE(segments(moved(2.0, 0.0, 0.05)).empty()) << "end over end";
     EXPECT_TRUE(segments(moved(2.1, 0.0, 0.05)).empty());
-    // The other way round, and where the vector between them changes by less and by more than the tolerance.
+    // Also turned half round; the gap vector may change by less than the tolerance, not by more.
     EXPECT_EQ(segments(turned_by(std::numbers::pi, Vec3::UnitZ(), Vec3(0.0, 0.0, 0.05))).size(), 1u);
     const double known = scene.at(whole).tolerance.known;
     for (const Vec3& axis : {Vec3(0.0, 0.0, 1.0), Vec3(0.0, 1.0, 0.0)}) {
       EXPECT_EQ(segments(turned_by(0.45 * known, axis, Vec3(0.0, 0.0, 0.05))).size(), 1u);
       EXPECT_TRUE(segments(turned_by(0.55 * known, axis, Vec3(0.0, 0.0, 0.05))).empty());
-      // Of a part the change counts, not of the whole.
+      // The change over the common part counts, not that over the whole chain.
       EXPECT_EQ(segments(turned_by(0.9 * known, axis, Vec3(1.0, 0.0, 0.05))).size(), 1u);
     }
   }
@@ -281,17 +281,17 @@ TEST(Decide, AChainOverARegionSharesEachPartOfIt) {
     ASSERT_EQ(lengths.size(), 2u);
     EXPECT_NEAR(lengths[0], 0.2, 1e-13);
     EXPECT_NEAR(lengths[1], 0.4, 1e-13);
-    // Tilted about y: the change over each tooth counts, that between them does not.
+    // Tilted about y: the change over each tooth counts, not the change between the teeth.
     const double known = scene.at(whole).tolerance.known;
     EXPECT_EQ(segments(turned_by(2.3 * known, Vec3::UnitY(), Vec3(0.0, 0.0, 0.1))).size(), 2u);
     lengths = segments(turned_by(2.7 * known, Vec3::UnitY(), Vec3(0.0, 0.0, 0.1)));
     ASSERT_EQ(lengths.size(), 1u);
     EXPECT_NEAR(lengths[0], 0.2, 1e-7);
     EXPECT_TRUE(segments(turned_by(5.5 * known, Vec3::UnitY(), Vec3(0.0, 0.0, 0.1))).empty());
-    // Along a border of the teeth: closed.
+    // The chain lies along a border of the teeth; the border is included.
     EXPECT_EQ(segments(moved(0.0, 0.5, 0.1)).size(), 2u);
     EXPECT_EQ(segments(moved(0.0, 0.5 + 1e-12, 0.1)).size(), 0u);
-    // Rolled about its own line the bar still stands on the chain, up to its faces.
+    // Rolled about its own line, the bar has the contacts of the chain, until a face is level.
     const auto rolled = [&](double angle) {
       return segments(turned_by(angle, Vec3::UnitX(), Vec3(0.0, 0.0, 0.1))).size();
     };
@@ -324,14 +324,14 @@ TEST(Decide, RegionsShareEachConnectedPartOfTheirOverlap) {
       EXPECT_NEAR(p.y(), 0.2, 1e-13);
       EXPECT_NEAR((whole.rotation.conjugate() * c.direction + Vec3::UnitZ()).norm(), 0.0, 1e-15);
     }
-    // Height over each foot.
+    // The change of height over each foot counts.
     const double known = scene.at(whole).tolerance.known;
     const auto tilted = [&](double tilt) {
       return polygons(turned_by(tilt, Vec3::UnitY(), Vec3(0.0, 0.0, 0.01))).size();
     };
     EXPECT_EQ(tilted(3.8 * known), 2u) << "a quarter wide";
     EXPECT_EQ(tilted(4.2 * known), 0u);
-    // Overlaps narrower than half the tolerance are none.
+    // An overlap narrower than half the tolerance is no contact.
     EXPECT_EQ(polygons(moved(1.5 - 0.6 * known, 0.0, 0.01)).size(), 1u);
     EXPECT_EQ(polygons(moved(1.5 - 0.4 * known, 0.0, 0.01)).size(), 0u);
     EXPECT_EQ(polygons(moved(1.5, 0.0, 0.01)).size(), 0u);
@@ -352,14 +352,14 @@ TEST(Decide, ASheetWithALargeHoleHasOnePartAndACombSeveral) {
       EXPECT_NEAR((c.point_fixed - Vec3(0.1, 0.0, 0.0)).norm(), 0.0, 1e-14) << "amid the hole";
       EXPECT_NEAR(c.measure, 10.0 * 0.0625, 1e-14);
     }
-  // Teeth of a comb over the border of the table: its back is beyond.
+  // The teeth of a comb are over the border of the table; its back is outside.
   ShapeScene comb(sheet_of({"#.#.#", "#.#.#", "#####"}, 0.25, false), table());
   EXPECT_EQ(polygons(comb.contacts(moved(0.0, -1.2, 0.1))), 3);
   EXPECT_EQ(polygons(comb.contacts(moved(0.0, 0.0, 0.1))), 1);
 }
 
 TEST(Decide, SaddlesPitsAndReflexChainsShareNothing) {
-  // The inner edge of an L over a corner that comes near it from outside.
+  // The inner edge of an L and a corner that comes near it from outside.
   const Surface surface = build_surface(make_l_block(1.0));
   const ShapeComplex shape = ShapeComplex::of(surface);
   ShapeScene scene(on_a_corner(), make_l_block(1.0));
@@ -430,8 +430,8 @@ TEST(Decide, WhatIsNoFeatureHasNoContact) {
   EXPECT_TRUE(with_vertex.contacts.empty()) << "a vertex without triangles";
 }
 
-/// How the triangles of a vertex hang together is a fact of the mesh: a decision that counted them again would ask all of a hub's, as
-/// often as there are features near it.
+/// The fans of a vertex are a fact of the mesh. A decision that counted them again would look at
+/// all triangles of a hub, once for every feature near it.
 TEST(PolarCondition, LooksUpHowTrianglesHangTogether) {
   TriangleMesh pit = make_box({2, 2, 2});
   for (auto& corners : pit.triangles) std::swap(corners[0], corners[1]);

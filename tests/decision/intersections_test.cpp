@@ -31,7 +31,7 @@ TEST(CornerGroups, AreTheConnectedComponents) {
   std::mt19937_64 random(11);
   std::size_t joined = 0, apart = 0;
   for (int round = 0; round < 60; ++round) {
-    // Few corners: one group; many: pairs alone; between the two, groups that join late.
+    // Few corners make one group, many make pairs alone; between the two, groups merge late.
     const std::uint64_t corners = 4 + random() % 60;
     std::vector<CornerPair> pairs(1 + random() % 200);
     for (CornerPair& pair : pairs)
@@ -140,7 +140,7 @@ TEST_F(IntersectionsTest, TheSetAloneDecides) {
       EXPECT_TRUE(same_feature_pair(again[k], expected[k]));
     }
   }
-  // A pair that was found twice counts once.
+  // A pair in the list twice counts once.
   std::vector<Intersection> twice = pieces;
   twice.insert(twice.end(), pieces.begin(), pieces.end());
   EXPECT_EQ(contacts(twice)[0].point_moving, expected[0].point_moving);
@@ -153,7 +153,7 @@ TEST_F(IntersectionsTest, RoundingDoesNotNameASymmetricContact) {
     ASSERT_EQ(set.size(), 1u);
     EXPECT_EQ(set[0].feature_moving.index, 0) << rounding;
   }
-  // By less than a kernel's crossing may be off no piece is nearer than another one.
+  // A difference less than the error of a kernel's crossing makes no piece the nearer one.
   const LmdSet set = contacts({faces(0, 0, {-1e-13, 0, 0}, 1.0), faces(1, 0, {1e-13, 0, 0}, 2.0)});
   ASSERT_EQ(set.size(), 1u);
   EXPECT_EQ(set[0].feature_moving.index, 0);

@@ -32,7 +32,7 @@ using testing::turned_by;
 using testing::uniform;
 using enum FeatureKind;
 
-/// Distance of a point from the part of the mesh that names it.
+/// Distance of a point from the mesh feature with this id.
 double off_feature(const Surface& surface, const FeatureId& feature, const Vec3& p_S) {
   const auto vertex = [&](std::int32_t v) { return surface.mesh.vertices[static_cast<std::size_t>(v)]; };
   if (feature.kind == VERTEX) return (vertex(feature.index) - p_S).norm();
@@ -43,7 +43,7 @@ double off_feature(const Surface& surface, const FeatureId& feature, const Vec3&
   return (point_triangle_distance(p_S, surface.mesh.triangle(feature.index)).point - p_S).norm();
 }
 
-/// The one LMD nearer than .5; its point on its features.
+/// The only LMD nearer than .5, after a check that its points are on its features.
 Lmd only(ShapeScene& scene, const Pose& pose) {
   LmdSet lmds = scene.lmds(pose);
   std::erase_if(lmds, [](const Lmd& lmd) { return lmd.distance > 0.5; });
@@ -93,7 +93,7 @@ TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
     for (int i = 0; i < 10; ++i) {
       const ShapePair pair = scene.at(pose);
       ContactSet set = scene.contacts(pair);
-      // Points may come twice.
+      // Contacts at a point may occur twice.
       for (std::size_t k = set.contacts.size(); k-- > 0;)
         if (set.contacts[k].dimension == 0 && random() % 2 == 0)
           set.contacts.push_back(Contact(set.contacts[k]));
@@ -110,7 +110,7 @@ TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
 }
 
 TEST(JoinContacts, EdgeOverEdgeIsOneLmdAndOnlyItsNameSwitches) {
-  // The box ends where the table does; moved in and out by an offset.
+  // The box's side is above the table's side, moved in and out by an offset.
   ShapeScene scene(box(), square_table());
   const double gap = 0.01;
   for (const double sign : {-1.0, 1.0})
@@ -130,8 +130,8 @@ TEST(JoinContacts, EdgeOverEdgeIsOneLmdAndOnlyItsNameSwitches) {
 }
 
 TEST(JoinContacts, OfSegmentsOfOneLengthRoundingDoesNotChoose) {
-  // The box ends where the table does, or 1e-12 beside that: its edge over the table, the table's edge below it, and both edges
-  // share as much, but for rounding.
+  // The box's side is above the table's side, or within 1e-11 of it. The box's edge over the table,
+  // the table's edge below the box, and both edges share equally long segments, but for rounding.
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Pose whole = testing::pose_of_seed(seed), own = testing::pose_of_seed(seed + 100);
     ShapeScene scene(testing::placed(make_box({1.0, 0.7, 1.0}, 1 + static_cast<int>(seed % 3)), own),
@@ -147,7 +147,7 @@ TEST(JoinContacts, OfSegmentsOfOneLengthRoundingDoesNotChoose) {
 }
 
 TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
-  // Underside at .2 and at .1, as a prism along y.
+  // Undersides at the heights .2 and .1, as a prism along y.
   const auto step = [] {
     return merged(translated(make_box({1.0, 1.0, 1.0}), Vec3(0.5, 0.5, 0.7)),
                   translated(make_box({1.0, 1.0, 1.1}), Vec3(1.5, 0.5, 0.65)));
@@ -161,7 +161,7 @@ TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
   EXPECT_NEAR(lmds[1].distance, 0.2, 1e-14);
   EXPECT_NEAR((lmds[1].point_moving - Vec3(0.5, 0.5, 0.2)).norm(), 0.0, 1e-13);
 
-  // A sheet over the table whose middle is bent up: a level recess, whose border leads down all round.
+  // A sheet, bent up in the middle: a level recess from whose border the distance only decreases.
   TriangleMesh pan;
   for (const double side : {1.0, 0.5})
     for (int k = 0; k < 4; ++k) {
@@ -177,7 +177,7 @@ TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
   pan.triangles.push_back({4, 7, 6});
   ShapeScene recess(pan, square_table());
   const LmdSet of_pan = recess.lmds(Pose{});
-  // Its level border alone: one place, four segments, at .1.
+  // The recess's level border alone has contacts: one place, four segments, at .1.
   for (const Lmd& lmd : of_pan) EXPECT_NEAR(lmd.distance, 0.1, 1e-13) << text(of_pan);
   EXPECT_GE(of_pan.size(), 1u);
   for (const double tilt : {1e-12, 1e-9, 1e-8, 1e-4})
@@ -185,10 +185,10 @@ TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
       EXPECT_LT(lmd.distance, 0.2) << tilt;
 }
 
-/// Strips of a cylinder's underside next to its lowest one stand higher by more than the tolerance.
+/// Strips beside the lowest strip of a cylinder are higher by more than the tolerance.
 TEST(JoinContacts, OfACylinderTheLowestFacetCounts) {
   TriangleMesh cylinder = make_sleeve(circle_outline(0.5), nullptr, {1.0, 256, 1, 1});
-  // Lying, a facet down.
+  // The cylinder lies on a facet.
   const double half = std::numbers::pi / 256.0;
   const double inradius = 0.5 * std::cos(half);
   cylinder = testing::placed(std::move(cylinder), turned_by(half, Vec3::UnitZ(), Vec3::Zero()));
@@ -198,7 +198,7 @@ TEST(JoinContacts, OfACylinderTheLowestFacetCounts) {
   const Lmd lmd = only(scene, moved(0.2, 0.3, inradius + 0.05));
   EXPECT_NEAR(lmd.distance, 0.05, 1e-8);
   EXPECT_NEAR((lmd.point_fixed - Vec3(0.2, 0.3, 0.0)).norm(), 0.0, 1e-6);
-  // On an edge.
+  // The cylinder lies on an edge.
   const Lmd edge = only(scene, turned_by(half, Vec3::UnitX(), Vec3(0.2, 0.3, 0.5 + 0.05)));
   EXPECT_NEAR(edge.distance, 0.05, 1e-8);
   EXPECT_EQ(edge.feature_moving.kind, EDGE);
@@ -224,7 +224,7 @@ TEST(JoinContacts, ACheckerboardsSquaresAreOneLmdAndSquaresApartAreNot) {
 }
 
 TEST(JoinContacts, TwoRegionsOfOnePlaneAreOneLmd) {
-  // Halves of a face that are turned against each other by less than the tolerance: a chain between them.
+  // Two halves of a face at an angle below the tolerance, with a chain between them.
   const auto bent = [](double angle) {
     TriangleMesh mesh = sheet_of({"##"}, 1.0, false);
     for (Vec3& x : mesh.vertices) x.z() = angle * std::max(0.0, x.x());
@@ -253,7 +253,7 @@ TEST(JoinContacts, AChainOverTwoTeethIsOneLmdATooth) {
     ASSERT_EQ(lmds.size(), 2u) << text(lmds);
     std::ranges::sort(lmds, {}, [](const Lmd& lmd) { return lmd.point_fixed.x(); });
     const double known = scene.at(Pose{}).tolerance.known;
-    // The middle while the height over a tooth stays within the tolerance, then the low end: turned about y that is the far one.
+    // The middle while the change over a tooth is within the tolerance, then the lower, far end.
     const bool is_level = 0.04 * tilt <= known;
     EXPECT_NEAR(lmds[0].point_fixed.x(), is_level ? 0.02 : 0.04, 1e-4);
     EXPECT_NEAR(lmds[1].point_fixed.x(), is_level ? 0.17 : 0.19, 1e-4);
@@ -271,12 +271,12 @@ TEST(JoinContacts, ATiltedBoxIsRepresentedOnItsFeatureAtEveryTilt) {
       const Vec3 axis(std::cos(angle), std::sin(angle), 0.0);
       const double gap = 0.02 + 0.1 * uniform(random);
       SCOPED_TRACE(::testing::Message() << "tilt " << tilt << " about " << axis.transpose());
-      // `only` asks whether the point is on its feature.
+      // `only` checks that the point is on its feature.
       const Lmd lmd = only(scene, whole * turned_by(tilt, axis, Vec3(0.0, 0.0, gap)));
       const double lowest = 0.5 * tilt * (std::abs(axis.x()) + std::abs(axis.y()));
       EXPECT_NEAR(lmd.distance, gap - lowest, known + 1.1 * lowest * tilt) << "continuous";
     }
-    // The middle, the low edge, the corner.
+    // The middle, then the lower edge or the corner.
     const auto kind_at = [&](double tilt, const Vec3& axis) {
       return only(scene, whole * turned_by(tilt, axis, Vec3(0.0, 0.0, 0.1))).feature_moving.kind;
     };
@@ -289,7 +289,7 @@ TEST(JoinContacts, ATiltedBoxIsRepresentedOnItsFeatureAtEveryTilt) {
 }
 
 TEST(JoinContacts, ACornerOverABorderOfTwoFacesIsOneLmd) {
-  // Two faces of one plane but for 1e-6.
+  // Two faces that are coplanar but for 1e-6.
   TriangleMesh roof = sheet_of({"##"}, 1.0);
   for (Vec3& x : roof.vertices) x.z() = -1e-6 * std::abs(x.x());
   TriangleMesh cube = translated(make_box({1.0, 1.0, 1.0}), Vec3(0.5, 0.5, 0.5));
@@ -310,12 +310,12 @@ TEST(JoinContacts, TheCutoffIsAskedAfterJoining) {
   ShapeScene scene(box(), square_table(), 0.1);
   EXPECT_EQ(scene.lmds(moved(0.0, 0.0, 0.1 - 1e-12)).size(), 1u);
   EXPECT_EQ(scene.lmds(moved(0.0, 0.0, 0.1 + 1e-12)).size(), 0u) << "looked for, and beyond";
-  // Of a face that leans by less than the tolerance the middle counts.
+  // For a face that leans by less than the tolerance the middle counts.
   const double known = scene.at(Pose{}).tolerance.known;
   EXPECT_EQ(scene.lmds(turned_by(0.5 * known, Vec3::UnitX(), Vec3(0.0, 0.0, 0.1 - 0.01 * known))).size(), 1u);
 }
 
-/// What a box on a table shares as far as its bottom and the table's top say.
+/// The intersections of a box's bottom with the table's top.
 std::vector<Intersection> bottom_on_top(const ShapeScene& scene) {
   std::vector<Intersection> intersections;
   for (std::int32_t t = 0; t < 12; ++t)
@@ -358,7 +358,7 @@ TEST(JoinContacts, WhatIntersectsByMoreThanRoundingHasNoContactThere) {
 }
 
 TEST(JoinContacts, WhatTouchesWithoutAPairOfPointsIntersects) {
-  // Rule S leaves nothing that could say it better.
+  // Rule S needs a point contact to replace an intersection, and none is left.
   ShapeScene scene(box(), square_table());
   const ShapePair pair = scene.at(moved(0.1, 0.2, 0.0));
   ContactSet set = scene.contacts(pair);

@@ -70,7 +70,7 @@ struct Part {
   Vec2 centroid;
 };
 
-/// Parts of what two regions share: triangle by triangle.
+/// Connected parts of the overlap of two regions, from their triangles.
 std::vector<Part> exact_overlap(const ShapeSide& a, std::int32_t region_a, const ShapeSide& b,
                                 std::int32_t region_b, const PlanarFrame& frame) {
   struct Flat {
@@ -110,7 +110,7 @@ std::vector<Part> exact_overlap(const ShapeSide& a, std::int32_t region_a, const
       }
       cut.area = static_cast<double>(twice) / 2.0;
       cut.moment = Vec2(static_cast<double>(x), static_cast<double>(y)) / 6.0;
-      // What rounding of the two placements leaves where borders lie on each other.
+      // A sliver from the rounding of both placements, where borders coincide.
       if (cut.area < 1e-12) continue;
       for (const Exact& p : cut.polygon) cut.box.add({static_cast<double>(p.x), static_cast<double>(p.y)});
       cuts.push_back(std::move(cut));
@@ -140,7 +140,7 @@ std::vector<Part> exact_overlap(const ShapeSide& a, std::int32_t region_a, const
   return parts;
 }
 
-/// The region that looks along an axis of its mesh and has most triangles.
+/// The region with most triangles whose normal is along an axis of its mesh.
 std::int32_t region_towards(const ShapeComplex& shape, const Vec3& axis) {
   std::int32_t best = -1;
   for (std::int32_t r = 0; r < shape.regions.region_count(); ++r)
@@ -159,7 +159,7 @@ void check_overlap(const ShapePair& pair, std::int32_t r_moving, std::int32_t r_
   const auto exact = exact_overlap(pair.moving, r_moving, pair.fixed, r_fixed, frame);
   const auto parts =
       overlap_of_regions(pair.moving, r_moving, pair.fixed, r_fixed, frame, 0.125 * pair.tolerance.rounding);
-  // Slivers are none of the judge's parts.
+  // The exact parts have no slivers.
   std::vector<const OverlapPart*> real;
   for (const OverlapPart& part : parts)
     if (part.area > 2e-12) real.push_back(&part);
@@ -237,7 +237,7 @@ TEST(Overlap, IsThatOfTheTrianglesWhereBordersLieOnEachOther) {
     for (const TriangleMesh& fixed : sheets) {
       ShapeScene scene(moving, fixed);
       for (int i = 0; i < 5; ++i) {
-        // Sixteenths: whole and half squares. Turned by nothing or upside down, which is exact.
+        // Sixteenths: whole and half squares. Not turned or upside down, which is exact.
         Pose pose = in_plane((static_cast<double>(random() % 17) - 8.0) / 16.0,
                              (static_cast<double>(random() % 13) - 6.0) / 16.0, 0.0, false);
         if (i % 2 == 0) pose.rotation = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
@@ -392,7 +392,7 @@ TEST(RegionShape, SaysClearlyInsideAndOutsideOnlyWhereItIs) {
 }
 
 TEST(RegionShape, BesideAFinOnAFaceNothingIsClearlyInside) {
-  // A vertical triangle on the middle of a square: its lower side and corners are features amid the square's plane.
+  // A vertical triangle on a square: its lower side and corners are features inside the square.
   TriangleMesh mesh = sheet_of({"####", "####", "####", "####"}, 0.25);
   const auto first = static_cast<std::int32_t>(mesh.vertices.size());
   ShapeScene plain(mesh, mesh);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts at rest in each other: contacts of faces that stand at an angle stay apart however near they are.
+// Parts at rest in each other: contacts of faces at an angle stay apart however near they are.
 #include <lmdbench/catalogue/shapes.h>
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * testing::uniform(random);
 }
 
-/// A prism over a polygon without holes whose triangles are given, from y = 0 to `depth`.
+/// A prism from y = 0 to `depth` over a polygon without holes that has these triangles.
 TriangleMesh prism(const std::vector<Vec2>& outline, const std::vector<std::array<std::int32_t, 3>>& caps,
                    double depth) {
   TriangleMesh mesh;

@@ -18,8 +18,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// What the driver asked of a fake method, in order: "A search 3" is instance A searching at frame 3 (poses
-/// carry their frame as x coordinate).
+/// Calls of the driver to fake methods, in order: "A search 3" is instance A searching at frame 3
+/// (poses have their frame as x coordinate).
 using Log = std::vector<std::string>;
 
 struct FakeTraits {
@@ -27,9 +27,9 @@ struct FakeTraits {
   int trackings_after_search = 2;
 };
 
-/// Finds three LMDs at a distance of 1 mm per frame of the pose; the first tracking after a
-/// search drops one of them. tracked sets carry the pose's frame as distance, so that the
-/// driver's working set tells its history.
+/// Finds three LMDs at a distance of 1 mm per frame of the pose; the first tracking after a search
+/// drops one of them. Tracked sets have the pose's frame as distance, which shows the history of
+/// the driver's working set.
 class FakeMethod : public Method {
  public:
   enum class Counter { SEARCHES, TRACKED_LMDS };
@@ -83,7 +83,7 @@ ForceProfile profile() {
   return {ForceLaw::LINEAR, 1.0, 0.0, 1.0, 4.0};
 }
 
-/// Instances are tagged in the order in which they are made: the driver makes the global one first. A method
+/// Instances get tags in the order of their making: the driver makes the global one first. A method
 /// without local tracking has one instance.
 DrivenMethod fake(const std::string& label, FakeTraits traits, Log* log,
                   const std::shared_ptr<int>& made = std::make_shared<int>(0)) {
@@ -115,7 +115,7 @@ TEST(Lockstep, SearchReductionArrivalAndTrackingFollowTheClock) {
   Log log;
   run_lockstep({fake("m", {}, &log)}, input(6), driver(4, 2), {});
   EXPECT_THAT(log,
-              ElementsAre("m.global search 0", "m.global track 0",  // search and first reduction at frame 0
+              ElementsAre("m.global search 0", "m.global track 0",  // search, first reduction
                           "m.local track 0", "m.local track 1",
                           "m.global track 2",  // second tracking, at the pose of the arrival
                           "m.local track 2", "m.local track 3",  //
@@ -200,7 +200,7 @@ TEST(Lockstep, MethodsWithoutLocalTrackingSearchInEveryFrame) {
   EXPECT_EQ(records[0].frames[2].counters[FakeMethod::Counter::SEARCHES], 1u);
 }
 
-/// In a fixed order a method would always find the caches that the same other one left.
+/// In a fixed order a method would always find the caches that the same other method left.
 TEST(Lockstep, MethodsTakeTurnsBlockByBlockInRandomOrder) {
   Log log;
   run_lockstep({fake("a", {false, 0}, &log), fake("b", {false, 0}, &log), fake("c", {false, 0}, &log)},

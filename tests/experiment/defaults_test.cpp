@@ -47,7 +47,7 @@ TEST(Defaults, TwoMeshesAreAnExperiment) {
     EXPECT_FALSE(method_description(method.name).brute_force);
     EXPECT_EQ(method.force_law, ForceLaw::EXPONENTIAL);
   }
-  EXPECT_EQ(experiment.profiles[0].maximum_force_n, 1.75);  // what a PHANTOM Desktop can hold for long
+  EXPECT_EQ(experiment.profiles[0].maximum_force_n, 1.75);  // continuous force of a PHANTOM Desktop
   const PreparedRun prepared = prepare(experiment);
   EXPECT_DOUBLE_EQ(prepared.scene().cutoff, 0.002) << "2 % of the smaller diagonal";
   EXPECT_EQ(prepared.times.size(), 2001u);

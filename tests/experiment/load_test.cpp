@@ -36,7 +36,7 @@ Experiment parse(const std::string& text, const std::vector<Override>& overrides
   return parse_experiment(text, "/data/e.json", overrides);
 }
 
-/// Message of the usage error that loading raises.
+/// Message of the usage error of loading.
 std::string message(const std::vector<Override>& overrides, const std::string& text = MINIMAL) {
   return testing::message_of<UsageError>([&] { parse(text, overrides); });
 }
@@ -108,8 +108,7 @@ TEST(LoadExperiment, EveryMethodOptionIsRead) {
   EXPECT_EQ(experiment.methods[2].options, nlohmann::json({{"frame_coherence", false}, {"kernel", "sse4"}}));
 }
 
-/// Every method of the registry is known to the schema, with the defaults of its description and nothing
-/// else.
+/// The schema has every method of the registry, with the defaults of its description and no others.
 TEST(LoadExperiment, OptionsOfMethodsAreThoseOfTheirDescriptions) {
   for (const MethodDescription& method : method_descriptions()) {
     const MethodChoice choice =

@@ -77,7 +77,7 @@ TEST(Objects, TheHeldOneMayFollowThePathOfTheFile) {
   EXPECT_EQ(experiment.held().motion.path_file, "/data/p.tum");
   const Experiment made = scene_of(objects({R"({"mesh":"a"})", HOLE}));
   EXPECT_TRUE(made.held().motion.path_file.empty());
-  // A first look at two meshes looks closer than a scene with a path of its own.
+  // Probes of a first look at two meshes are closer together than those of a scene with a path.
   EXPECT_EQ(scene_of(objects({PEG, HOLE})).probe_stride("truth"), experiment.probe_stride("truth"));
   EXPECT_NE(made.probe_stride("truth"), experiment.probe_stride("truth"));
 }

@@ -31,7 +31,7 @@ Lmd lmd_at(const Vec3& point_moving, const Vec3& direction, double distance) {
 }
 
 TEST(SumForces, PushesTheMovingMeshAway) {
-  // The fixed mesh lies below: the moving one is pushed up.
+  // The fixed mesh is below the moving one, so the force on the moving one points up.
   const Wrench wrench =
       sum_forces({lmd_at(Vec3(0.1, 0, 0), -Vec3::UnitZ(), 0.006)}, LINEAR_PROFILE, Vec3::Zero());
   EXPECT_TRUE(wrench.force.isApprox(Vec3(0, 0, 4.0), 1e-14));
@@ -55,7 +55,7 @@ TEST(SumForces, NEqualContactsGiveNTimesForceAndStiffness) {
 }
 
 TEST(SumForces, StiffnessIsTheSlopeAlongTheForceForFlatContacts) {
-  // Two planes that meet: distances fall by n.x for a translation x, directions stay.
+  // Two planes that meet: a translation by x reduces distances by n.x; directions stay.
   const Vec3 n0 = Vec3(0.3, -0.2, -1.0).normalized();
   const Vec3 n1 = Vec3(-0.5, 0.4, -0.6).normalized();
   const auto force_at = [&](const Vec3& x) {

@@ -53,7 +53,7 @@ TEST(Aggregation, OfSeparatedMinimaAllAreTheSum) {
   const CriticalSet set{critical(0.2, {0, 0, -1}, 1), critical(0.5, {0, 1, -1}, 1),
                         critical(0.9, {1, 1, 1}, 1)};
   for (const Aggregation& law : aggregations()) {
-    if (law.needs == AggregationNeeds::MINIMA) continue;  // Free to be something else.
+    if (law.needs == AggregationNeeds::MINIMA) continue;  // These laws may give another force.
     const Wrench own = law.combine({set, {}}, PROFILE_OF_ONE, Vec3::Zero()),
                  sum = sum_forces(minima_of(set), PROFILE_OF_ONE, Vec3::Zero());
     expect_near(own.force, sum.force);
@@ -95,21 +95,21 @@ TEST(Aggregation, AMinimumAndItsSaddleVanishTogether) {
 TEST(Aggregation, SharedIsTheIntegralOverLevels) {
   const Vec3 u = Vec3(0.3, -0.2, 0.9).normalized(), v = Vec3(-0.5, 0.1, 0.8).normalized();
   const CriticalSet set{critical(0.1, u, 1), critical(0.3, v, 1), critical(0.5, {0, 0, 1}, -1)};
-  // f = 1 - d. Alone from .1 and .3 to .5, then .4 and .2 long.
+  // f = 1 - d. The branches are alone from .1 and .3 to .5; at the merge they are .4 and .2 long.
   const Vec3 expected = -(0.4 * u + 0.2 * v) - 0.5 * (2.0 / 3.0 * u + 1.0 / 3.0 * v);
   expect_near(force_of(shared_law(), set, {{{2, 0, 1}}}), expected);
-  // The order of merges does not matter where they are at one level.
+  // Merges at one level have no order.
   const CriticalSet three{critical(0.1, u, 1), critical(0.2, v, 1), critical(0.3, {1, 0, 0}, 1),
                           critical(0.6, {0, 0, 1}, -1), critical(0.6, {0, 1, 1}, -1)};
   expect_near(force_of(shared_law(), three, {{3, 0, 1}, {4, 1, 2}}),
               force_of(shared_law(), three, {{4, 1, 2}, {3, 0, 1}}), 1e-15);
-  // Of a loop nothing more is shared.
+  // A merge that closes a loop shares nothing more.
   expect_near(force_of(shared_law(), three, {{3, 0, 1}, {4, 1, 0}}),
               force_of(shared_law(), three, {{3, 0, 1}}), 1e-15);
 }
 
 TEST(Aggregation, SignedIsTheSlopeOfItsPotential) {
-  // Two parallel walls' worth of indices: weights alone.
+  // Signed weights in parallel directions.
   const CriticalSet set{critical(0.2, {0, 0, 1}, 1), critical(0.3, {0, 0, 1}, -2),
                         critical(0.4, {0, 0, 1}, 3)};
   expect_near(force_of(signed_law(), set), -Vec3(0, 0, 0.8 - 2 * 0.7 + 3 * 0.6));
@@ -134,7 +134,7 @@ TEST(Aggregation, ContactWithoutDirectionIsLeftOut) {
 TEST(Aggregation, SaturationIsPartOfTheProfile) {
   ForceProfile saturated = PROFILE_OF_ONE;
   saturated.saturation_distance = 0.6;
-  // Both saturated up to the merge: neither has a force of its own, and the shares are the branches' lengths all the same.
+  // Both are saturated up to the merge: neither gives a share of its own, but branch lengths count.
   const Vec3 u = Vec3(1, 0, 1).normalized(), v = Vec3(-1, 0, 1).normalized();
   const CriticalSet set{critical(0.1, u, 1), critical(0.3, v, 1), critical(0.5, {0, 0, 1}, -1)};
   const std::vector<Merge> merges{{2, 0, 1}};
@@ -146,7 +146,7 @@ SurfaceSample sample_at(double distance, const Vec3& direction, double area) {
 }
 
 TEST(Aggregation, LayeredIsTheMeanOverTheSurface) {
-  // f = 1 - d; the minimum alone up to 0.4, then weighed against a patch: area (t - 0.4) beside kappa (t - 0.2).
+  // f = 1 - d. Up to 0.4 the minimum alone; above, weights AREA (t - 0.4) and KAPPA (t - 0.2).
   const Vec3 u = Vec3::UnitZ(), v = Vec3::UnitX();
   const CriticalSet set{critical(0.2, u, 1)};
   constexpr double AREA = 0.3, KAPPA = 0.5, SUM = AREA + KAPPA;
@@ -156,7 +156,7 @@ TEST(Aggregation, LayeredIsTheMeanOverTheSurface) {
   const double b = 0.4 * AREA + 0.2 * KAPPA;
   const double share = AREA / SUM * (0.6 + (b / SUM - 0.4) * std::log((SUM - b) / (0.4 * SUM - b)));
   expect_near(force, -(0.2 + 0.6 - share) * u - share * v, 1e-4);
-  // With no patch at all it is `shared`.
+  // Without any patch `layered` is `shared`.
   expect_near(layered_law().combine({set, {}, {}, KAPPA}, PROFILE_OF_ONE, Vec3::Zero()).force, -0.8 * u);
 }
 
@@ -170,7 +170,7 @@ TEST(Aggregation, APatchBeginsWithoutAJump) {
     return layered_law().combine({set, merges, samples, 0.1}, PROFILE_OF_ONE, Vec3::Zero()).force;
   };
   expect_near(force_with(1.0 - 1e-9), force_with(2.0), 1e-8);
-  // Nor where it passes the level of another patch, or that of the saddle.
+  // Nor is there a jump where it passes the level of another patch or of the saddle.
   for (const double at : {0.25, 0.6}) expect_near(force_with(at - 1e-9), force_with(at + 1e-9), 1e-7);
 }
 

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <vector>
 
-/// `layered`, and the samples of surface that it is made of.
+/// The aggregation `layered`, and the surface samples that it uses.
 namespace lmdbench {
 namespace {
 
@@ -21,7 +21,7 @@ ForceProfile linear_profile(double cutoff) {
   return {.law = ForceLaw::LINEAR, .cutoff = cutoff, .saturation_distance = 0.0, .maximum_force = 1.0};
 }
 
-/// An aggregation on a scene, as `certified` finds it.
+/// An aggregation on a scene, with the contacts that `certified` finds.
 class Rendered {
  public:
   Rendered(const Aggregation& aggregation, Scene scene)
@@ -52,7 +52,7 @@ std::vector<SurfaceSample> samples_of(const Scene& scene, const Pose& X_WM) {
 }
 
 TEST(SurfaceSamples, CoverWhatIsWithinTheCutoff) {
-  // A ball over a plate: of a cap of height h the area seen from below is pi (2 R h - h^2).
+  // A ball over a plate: seen from below, a cap of height h has the area pi (2 R h - h^2).
   constexpr double RADIUS = 1.0, CUTOFF = 0.2, GAP = 0.05, HEIGHT = CUTOFF - GAP;
   const Scene scene = testing::make_scene(make_sphere(RADIUS, 4), make_box({4.0, 4.0, 1.0}, 1), CUTOFF);
   const auto samples = samples_of(scene, testing::moved(0.013, 0.021, 0.5 + RADIUS + GAP));
@@ -67,7 +67,7 @@ TEST(SurfaceSamples, CoverWhatIsWithinTheCutoff) {
 }
 
 TEST(SurfaceSamples, EachBelongsToTheMinimumBelowIt) {
-  // A bar on two bumps: what is over a bump is the bump's.
+  // A bar on two bumps: the samples over a bump belong to the bump's minimum.
   const TriangleMesh bumps = merged(translated(make_sphere(0.3, 3), {-1.0, 0.0, 0.0}),
                                     translated(make_sphere(0.3, 3), {1.0, 0.0, 0.0}));
   const Scene scene = testing::make_scene(make_box({3.0, 0.2, 0.2}, 4), bumps, 0.1);
@@ -90,7 +90,7 @@ TEST(SurfaceSamples, NoneWhereMeshesTouch) {
 }
 
 Scene rod_in_bore(int rod, int bore) {
-  // Polygons as large as their circles, or a coarser one has another gap.
+  // Polygons with the area of their circles; else a coarser polygon would have another gap.
   const auto radius_of = [](double radius, int n) {
     const double angle = 2.0 * std::numbers::pi / n;
     return radius * std::sqrt(angle / std::sin(angle));
@@ -102,7 +102,7 @@ Scene rod_in_bore(int rod, int bore) {
                              0.001);
 }
 
-/// Of smooth surfaces, off the axis by `off`: the gap at an angle is gap - off cos(angle), and patches weigh t - gap.
+/// Smooth surfaces, `off` the axis: the gap is g = gap - off cos(angle), the weight t - g.
 double smooth_force(double cutoff, double gap, double off) {
   double force = 0.0;
   constexpr int LEVELS = 2000, ANGLES = 2000;
@@ -120,7 +120,7 @@ double smooth_force(double cutoff, double gap, double off) {
   return force;
 }
 
-/// Mean over rolls.
+/// Mean over several roll angles.
 double force_in_bore(int rod, int bore) {
   Rendered layered(layered_law(), rod_in_bore(rod, bore));
   double mean = 0.0;
@@ -140,8 +140,8 @@ double force_in_bore(int rod, int bore) {
 TEST(Layered, ARodInABoreHasOneForceHoweverManyFacets) {
   const double fine = force_in_bore(64, 96);
   EXPECT_NEAR(fine, smooth_force(0.001, 0.0003, 0.00015), 0.03 * fine);
-  // 64 in 64 is aligned in the first roll: every face of the rod is parallel to one of the bore, and most ways down lead over level
-  // places.
+  // 64 in 64 is aligned in the first roll: every face of the rod is parallel to one of the bore,
+  // and most descents cross level places.
   for (const auto& [rod, bore] : {std::pair{24, 32}, {32, 48}, {64, 64}})
     EXPECT_NEAR(force_in_bore(rod, bore), fine, 0.03 * fine) << rod << " facets in " << bore;
 }

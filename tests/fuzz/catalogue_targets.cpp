@@ -21,7 +21,7 @@
 namespace lmdbench::testing {
 namespace {
 
-/// More than this is for the slow-unit check only: the surface's tables would hide what the reader costs.
+/// Larger meshes are only timed: building the surface's tables would hide the cost of the reader.
 constexpr std::size_t SMALL_MESH = 2000;
 
 std::optional<std::string> broken_mesh_file(const FileContent& content) {
@@ -74,7 +74,7 @@ std::optional<std::string> broken_import(std::string_view bytes) {
 
 namespace {
 
-/// Whether a shape is made of few triangles, or of more than any may have: others take the fuzzer's time.
+/// Whether a shape has few triangles, or too many to be made: any other number would take long.
 bool is_quick_to_make(const nlohmann::json& recipe) {
   for (const auto& [key, value] : recipe.items()) {
     if (value.is_object() && !is_quick_to_make(value)) return false;

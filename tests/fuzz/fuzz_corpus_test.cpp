@@ -62,11 +62,11 @@ TEST_P(FuzzCorpus, KeepsEveryPromise) {
     EXPECT_EQ(broken.value_or(""), "") << GetParam().name << ", file " << i << " by name";
     taken += broken.has_value();
   }
-  // Else nothing behind the first check of the reader is reached, by the fuzzer neither.
+  // Otherwise neither this test nor the fuzzer would get beyond the first check of the reader.
   EXPECT_GT(taken, 0) << GetParam().name;
 }
 
-/// A few mutations of every file: nothing beside what the fuzzers do for hours, but in every run of the tests.
+/// A few mutations of every file in every run of tests; the fuzzers do them for hours.
 TEST_P(FuzzCorpus, KeepsEveryPromiseForItsMutations) {
   std::mt19937 random(29);
   const int mutations = GetParam().name == "import" || GetParam().name == "result" ? 1 : 8;

@@ -12,9 +12,9 @@
 #include <string>
 #include <string_view>
 
-/// libFuzzer's entries of one target, whose check the macro LMDBENCH_FUZZ_CHECK names: lmdbench_off_fuzz CORPUS.
-/// LMDBENCH_FUZZ_JSON: half of the mutations keep the text JSON. Finds end up in tests/fuzz/corpus, which the test
-/// FuzzCorpus replays. scripts/fuzz.sh runs all.
+/// libFuzzer's entries of one target, whose check the macro LMDBENCH_FUZZ_CHECK names:
+/// lmdbench_off_fuzz CORPUS. With LMDBENCH_FUZZ_JSON half of the mutations keep the text JSON.
+/// Finds go to tests/fuzz/corpus; FuzzCorpus replays them. scripts/fuzz.sh runs all targets.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

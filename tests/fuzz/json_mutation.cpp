@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 using Random = std::mt19937_64;
 
-/// Deeper text is left to the mutations of bytes: the functions here go down by recursion.
+/// The functions here are recursive; deeper documents get mutations of bytes only.
 constexpr std::size_t DEEPEST = 60;
 
 void collect(Json& value, std::vector<Json*>& all) {

@@ -10,13 +10,13 @@
 #include <string>
 #include <string_view>
 
-/// What the checks of several formats share.
+/// Checks that several formats share.
 namespace lmdbench::testing {
 
-/// Runs a reader and what checks its value.
+/// Runs a reader and a check of its value.
 /// @param file  the name that refusals must begin with
 /// @param read  returns what is broken, or nothing; throws where it refuses the bytes
-/// @return nothing where it refused, empty where it took the bytes, or what is broken
+/// @return nothing where the reader refused the bytes, empty where they are good, or what is broken
 std::optional<std::string> broken_unless_refused(const std::string& file,
                                                  const std::function<std::string()>& read);
 
@@ -26,8 +26,8 @@ std::string broken_mesh(const TriangleMesh& mesh);
 /// Whether two meshes have the same bits.
 bool same_mesh(const TriangleMesh& a, const TriangleMesh& b);
 
-/// The bytes as a regular file, which the next call replaces: a descriptor's name under /proc is a link, which some readers
-/// refuse, and HDF5 opens none without a place in a file system.
+/// Writes the bytes to a regular file, which the next call replaces. A descriptor's name under
+/// /proc is a link: some readers refuse it, and HDF5 opens only files of a file system.
 std::filesystem::path written_file(std::string_view bytes);
 
 }  // namespace lmdbench::testing

@@ -16,7 +16,7 @@ namespace lmdbench::testing {
 std::optional<std::string> broken_sweep(std::string_view bytes) {
   const std::string file = LMDBENCH_SOURCE_DIR "/experiments/sweeps/fuzz.json";
   return broken_unless_refused(file, [&]() -> std::string {
-    // Each point reads an experiment, which has a target of its own.
+    // Each point reads an experiment, and experiments have a target of their own.
     constexpr std::size_t MOST_POINTS = 3;
     const Sweep read = parse_sweep(std::string(bytes), file, {}, MOST_POINTS);
     if (read.points.empty() || read.points.size() > MOST_POINTS) return "no point, or too many";

@@ -79,7 +79,7 @@ TEST(Cone, ContainsEveryDirectionItWasMadeOf) {
     for (int i = 0; i < 1 + round % 40; ++i) directions.push_back(direction_within(random, axis, half_angle));
     const Cone cone = cone_of_directions(directions);
     for (const Vec3& direction : directions) ASSERT_TRUE(cone.contains(direction)) << "round " << round;
-    // The generating cone is a candidate, so the smallest one may not be wider.
+    // The directions come from a cone, so the smallest cone may not be wider than that one.
     if (half_angle < 0.49 * PI) {
       ASSERT_LE(cone.half_angle(), half_angle + 1e-9) << "round " << round;
     }
@@ -87,7 +87,7 @@ TEST(Cone, ContainsEveryDirectionItWasMadeOf) {
 }
 
 TEST(Cone, ConvexConeOfAWideSetIsAllDirections) {
-  // No half space holds the corners of a tetrahedron.
+  // No half space contains all corners of a tetrahedron.
   const std::array<Vec3, 4> directions{Vec3(1, 1, 1).normalized(), Vec3(1, -1, -1).normalized(),
                                        Vec3(-1, 1, -1).normalized(), Vec3(-1, -1, 1).normalized()};
   EXPECT_TRUE(convex_cone_of_directions(directions).is_all_directions());

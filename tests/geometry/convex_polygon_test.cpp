@@ -23,7 +23,7 @@ Vec2 random_point(std::mt19937_64& random, double size) {
   return size * Vec2(uniform(random) - 0.5, uniform(random) - 0.5);
 }
 
-/// Greatest height over the sides' lines: not positive inside.
+/// Greatest height over the lines of the sides: not positive inside.
 double height_over_sides(const ConvexPolygon& polygon, const Vec2& x) {
   double highest = -1e300;
   for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
@@ -33,7 +33,7 @@ double height_over_sides(const ConvexPolygon& polygon, const Vec2& x) {
   return highest;
 }
 
-/// Of two convex polygons without a common point.
+/// Distance of two convex polygons without a common point.
 double distance_between(const ConvexPolygon& a, const ConvexPolygon& b) {
   const auto lift = [](const Vec2& x) { return Vec3(x[0], x[1], 0.0); };
   const auto side = [&](const ConvexPolygon& p, std::size_t k) {
@@ -76,7 +76,7 @@ TEST(PlanarFrame, IsRightHandedAndGoesThereAndBack) {
     EXPECT_NEAR((frame.flat(frame.lifted(x)) - x).norm(), 0.0, 1e-14);
     EXPECT_NEAR((frame.flat(frame.lifted(x) + 7.0 * n) - x).norm(), 0.0, 1e-14) << "along the normal";
     EXPECT_NEAR(n.dot(frame.lifted(x) - point), 0.0, 1e-14);
-    // Triangles come counter-clockwise, whichever way they run.
+    // The triangles become counter-clockwise, whatever their order of corners.
     const Triangle t{frame.lifted({0, 0}), frame.lifted({1, 0}), frame.lifted({0, 2})};
     EXPECT_NEAR(ConvexPolygon(frame, t).measure().area, 1.0, 1e-14);
     EXPECT_NEAR(ConvexPolygon(frame, {t[0], t[2], t[1]}).measure().area, 1.0, 1e-14);
@@ -86,7 +86,7 @@ TEST(PlanarFrame, IsRightHandedAndGoesThereAndBack) {
 TEST(ConvexHull, HoldsAllPointsAndTurnsLeftAtEach) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 400; ++i) {
-    // Whole numbers: products are exact, and many points are equal or on one line.
+    // Coordinates are whole numbers: products are exact, and many points coincide or are collinear.
     std::vector<Vec2> points(1 + random() % 30);
     const std::uint64_t range = 1 + random() % 12;
     for (Vec2& x : points)
@@ -168,7 +168,7 @@ TEST(AreaAndCentroid, AreThoseOfTheTriangles) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 100; ++i) {
     const ConvexPolygon polygon = random_convex_polygon(random, 9);
-    // From a point amid them, instead of a corner.
+    // The fan starts at a point inside instead of a corner.
     Vec2 middle = Vec2::Zero();
     for (const Vec2& x : polygon.corners) middle += x / static_cast<double>(polygon.corners.size());
     double area = 0.0;
@@ -284,7 +284,7 @@ TEST(Touches, NeverMissesADistanceWithinReach) {
   int near = 0, apart = 0;
   for (int i = 0; i < 3000; ++i) {
     const ConvexPolygon a = random_convex_polygon(random, 3 + static_cast<int>(random() % 8));
-    // A segment too: two corners.
+    // Two corners make a segment.
     ConvexPolygon b = i % 3 == 0 ? ConvexPolygon({random_point(random, 2.0), random_point(random, 2.0)})
                                  : random_convex_polygon(random, 5);
     const Vec2 away = random_point(random, 3.0);
@@ -302,7 +302,7 @@ TEST(Touches, NeverMissesADistanceWithinReach) {
       EXPECT_TRUE(touches) << i;
       ++near;
     }
-    // Without reach it is exact.
+    // With reach 0 the test is exact.
     if (reach == 0.0 && distance > 1e-9) {
       EXPECT_FALSE(touches) << i;
       ++apart;
@@ -310,7 +310,7 @@ TEST(Touches, NeverMissesADistanceWithinReach) {
   }
   EXPECT_GT(near, 500);
   EXPECT_GT(apart, 300);
-  // Squares side by side: no farther than the reach.
+  // Squares side by side, no farther apart than the reach.
   const ConvexPolygon square({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), next({{1.5, 0}, {2, 0}, {2, 1}, {1.5, 1}});
   EXPECT_TRUE(square.touches(next, 0.5));
   EXPECT_FALSE(square.touches(next, 0.49));

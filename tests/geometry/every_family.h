@@ -10,12 +10,12 @@
 
 namespace lmdbench::testing {
 
-/// For INSTANTIATE_TEST_SUITE_P: a test a family of triangle pairs.
+/// For INSTANTIATE_TEST_SUITE_P: one test per family of triangle pairs.
 inline auto every_family() {
   return ::testing::ValuesIn(triangle_families().begin(), triangle_families().end());
 }
 
-/// Name of a family's test: its letters and digits.
+/// The test's name has the letters and digits of the family's name.
 inline std::string family_test_name(const ::testing::TestParamInfo<TriangleFamily>& parameter) {
   std::string name;
   for (const char c : parameter.param.name)

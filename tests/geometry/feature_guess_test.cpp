@@ -80,7 +80,7 @@ TEST(FeatureGuess, TakesWhatIsNotFinite) {
 }
 
 TEST(FeatureGuess, LeadsToTheProofOfNearlyEveryDisjointPair) {
-  // What is not proved costs several times as much; a bad guess would show here, not in any result.
+  // A pair without a proof costs several times as much. Bad guesses change only this count.
   for (const int family : {0, 1, 2}) {
     Random random(501);
     int disjoint = 0, proved = 0;

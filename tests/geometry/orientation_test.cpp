@@ -38,7 +38,7 @@ TEST(Orientation, KnowsTheSides) {
 }
 
 TEST(Orientation, AgreesWithRationalsWhereRoundingDecidesNothing) {
-  // Nearly coplanar points: one in the plane up to rounding, moved by a few units in the last place.
+  // Nearly coplanar: a point in the plane up to rounding, moved by some units in the last place.
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
   std::uniform_int_distribution<int> steps(-3, 3);
@@ -74,8 +74,8 @@ TEST(Orientation, TwoDimensionsAgreeWithRationals) {
   std::uniform_int_distribution<int> steps(-2, 2);
   int zeros = 0;
   for (int round = 0; round < 20000; ++round) {
-    // Three points of a line, on a lattice or up to rounding, the last moved by a
-    // few units in the last place.
+    // Three points on a line, on a lattice or up to rounding; some units in the last place move the
+    // last one.
     const bool on_lattice = round % 2 == 0;
     const auto point = [&] {
       const double first = coordinate(random);

@@ -45,8 +45,8 @@ TEST(PointTriangle, ReportsEveryRegion) {
 }
 
 TEST(PointTriangle, StandsNeedles) {
-  // The altitude is 1e-10 of the edge; the nearest point is inside, far from every
-  // edge by the needle's measure.
+  // The altitude is 1e-10 of the edge. The nearest point is inside, far from every edge in terms of
+  // that altitude.
   const Triangle needle{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1e-10, 0)};
   const auto result = point_triangle_distance(Vec3(0.5, 0.25e-10, 1e-6), needle);
   EXPECT_EQ(result.feature, TriangleFeature::FACE);
@@ -54,7 +54,7 @@ TEST(PointTriangle, StandsNeedles) {
 }
 
 TEST(PointTriangle, OfEqualCornersIsAPoint) {
-  // parry issue 76: two equal corners once gave 0. The issue prints single precision.
+  // parry issue 76: two equal corners once gave 0. The issue prints numbers in single precision.
   const Triangle degenerate{Vec3(2.27699995, -7.9000001, 16.3180008),
                             Vec3(-0.569999993, -8.10000038, 16.6070004),
                             Vec3(-0.569999993, -8.10000038, 16.6070004)};

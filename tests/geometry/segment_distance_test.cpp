@@ -14,7 +14,7 @@ namespace {
 
 using testing::random_point;
 
-/// Nearest distance by ternary search over one segment of the distance to the other: convex, so it converges.
+/// Distance by ternary search along one segment: the distance to the other one is convex.
 double searched_distance(const Segment& a, const Segment& b) {
   const auto to_b = [&](double s) {
     const Vec3 p = a[0] + s * (a[1] - a[0]);
@@ -97,7 +97,7 @@ TEST(SegmentPair, ParallelOverlapIsAnsweredByItsMiddle) {
 }
 
 TEST(SegmentPair, IsRightForEveryAngle) {
-  // Segments that cross at a gap, seen from the angle at which the textbook determinant has no digit left.
+  // Segments cross at a gap; at the last angles the textbook determinant has no correct digit left.
   for (double angle = 1.0; angle > 1e-13; angle *= 0.1) {
     for (double gap = 1.0; gap > 1e-13; gap *= 0.1) {
       const Segment a{Vec3(-1, 0, 0), Vec3(1, 0, 0)};

@@ -44,8 +44,8 @@ TEST(BoundingSphere, OfACubeIsItsHalfDiagonal) {
 TEST(BoundingSphere, HoldsEveryPointAndIsTheSmallest) {
   std::mt19937_64 random(3);
   for (int round = 0; round < 300; ++round) {
-    // Points in the unit ball with four on its surface round the centre: the unit
-    // ball is the smallest sphere.
+    // Points in the unit ball, four of them on its surface and around its centre: the unit ball is
+    // the smallest sphere.
     const double scale = std::pow(10.0, round % 13 - 6);
     const Vec3 centre = random_point(random) * scale;
     std::vector<Vec3> points;
@@ -73,7 +73,7 @@ TEST(BoundingSphere, StandsDegenerateSets) {
     for (const Vec3& point : collinear) ASSERT_LE((point - sphere.centre).norm(), sphere.radius);
     ASSERT_NEAR(sphere.radius, 0.5 * d.norm(), 1e-9);
   }
-  // Many points of one sphere: every one is a candidate for the support.
+  // All points are on one sphere: each is a candidate for the support.
   std::vector<Vec3> on_sphere;
   for (int i = 0; i < 500; ++i) on_sphere.push_back(random_point(random).normalized());
   EXPECT_NEAR(bounding_sphere(on_sphere).radius, 1.0, 1e-3);

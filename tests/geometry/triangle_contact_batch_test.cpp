@@ -31,7 +31,7 @@ struct Pairs {
 
 TEST(ClearCrossings, AreIntersectionsWithTheSegmentOfTheScalarKernel) {
   std::size_t crossing = 0, missed = 0;
-  // 1,003: the last vectors are not full.
+  // With 1,003 pairs the last vectors are not full.
   for (const testing::TriangleFamily& family : testing::triangle_families()) {
     Pairs pairs(family, 305, 1003);
     std::vector<ClearCrossing> found(pairs.a.size());

@@ -18,7 +18,7 @@ Triangle permuted(const Triangle& triangle, const std::array<int, 3>& order) {
   return {triangle[order[0]], triangle[order[1]], triangle[order[2]]};
 }
 
-/// The feature of `triangle` that the feature of the permuted triangle is.
+/// Maps a feature of the permuted triangle to that of `triangle`.
 TriangleFeature unpermuted(TriangleFeature feature, const std::array<int, 3>& order) {
   if (is_vertex(feature)) return vertex_feature(order[local_index(feature)]);
   if (is_face(feature)) return feature;
@@ -28,7 +28,7 @@ TriangleFeature unpermuted(TriangleFeature feature, const std::array<int, 3>& or
 
 const Triangle FLOOR{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
-/// FLOOR and a triangle whose answer is known by hand, checked under all 72 orders of the corners and the arguments.
+/// FLOOR and a triangle with a known answer, checked under all 72 orders of corners and arguments.
 void expect_known(const Triangle& other, double distance, const Vec3& on_floor, const Vec3& on_other,
                   TriangleFeature of_floor, TriangleFeature of_other, int dimension = 0, double measure = 0.0,
                   bool intersecting = false) {
@@ -95,7 +95,7 @@ TEST(TriangleDistance, ParallelFacesAreAnsweredByTheCentroidOfTheOverlap) {
   // The overlap is the unit square with its far corners at (1, 1) and (2, 2).
   expect_known({Vec3(2, 2, 1), Vec3(2, -2, 1), Vec3(-2, 2, 1)}, 1.0, Vec3(1, 1, 0), Vec3(1, 1, 1),
                TriangleFeature::FACE, TriangleFeature::FACE, 2, 4.0);
-  // One inside the other's shadow: its own centroid.
+  // One triangle is inside the other's projection: its own centroid.
   expect_known({Vec3(1, 1, 1), Vec3(1.75, 1, 1), Vec3(1, 1.75, 1)}, 1.0, Vec3(1.25, 1.25, 0),
                Vec3(1.25, 1.25, 1), TriangleFeature::FACE, TriangleFeature::FACE, 2, 0.28125);
 }
@@ -156,8 +156,8 @@ TEST(TriangleDistance, KnowsThePublishedFailuresOfOthers) {
   EXPECT_NEAR(std::sqrt(pair.squared_distance), 1.819e-12, 1e-12);
   EXPECT_FALSE(pair.intersecting);
 
-  // ifc-lite pull request 2815: an edge that pierces a slanted face; the minimum over corners and edges alone
-  // is not zero.
+  // ifc-lite pull request 2815: an edge pierces a slanted face. The minimum over corners and edges
+  // alone is not zero.
   const Triangle slanted{Vec3(0, 0, 0), Vec3(10, 0, 2), Vec3(0, 10, 3)};
   const Triangle piercing{Vec3(2, 2, -5), Vec3(3, 3, 5), Vec3(5, 1, 5)};
   for (const auto& pierced : {triangle_distance(slanted, piercing), triangle_distance(piercing, slanted)}) {

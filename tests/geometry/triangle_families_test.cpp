@@ -19,8 +19,8 @@ using testing::Random;
 using testing::TriangleFamily;
 using testing::TrianglePair;
 
-/// Largest error of a distance, relative to the largest coordinate: taking edges as parallel may cost
-/// COINCIDENCE_TOLERANCE, the rest is a few roundings. The published bound is 1e-12.
+/// Largest error of a distance, relative to the largest coordinate: COINCIDENCE_TOLERANCE where
+/// edges count as parallel, and a few roundings. The published bound is 1e-12.
 constexpr double KERNEL_ERROR_BOUND = 2.0 * COINCIDENCE_TOLERANCE;
 
 constexpr int PAIRS = 10000;
@@ -40,7 +40,7 @@ void expect_right(const TrianglePair& pair) {
   };
   ASSERT_LE(off(result.point_a, pair.a), bound) << paste(pair);
   ASSERT_LE(off(result.point_b, pair.b), bound) << paste(pair);
-  // A corner is a bit-copy, but two touching corners whose bits differ can only share one of them.
+  // A corner is copied bit by bit; of two touching corners that differ in bits, only one is.
   const bool copy_a = is_vertex(result.feature_a) && result.point_a == pair.a[local_index(result.feature_a)];
   const bool copy_b = is_vertex(result.feature_b) && result.point_b == pair.b[local_index(result.feature_b)];
   ASSERT_TRUE(!is_vertex(result.feature_a) || copy_a || (result.intersecting && copy_b)) << paste(pair);

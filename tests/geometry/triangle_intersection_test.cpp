@@ -17,7 +17,7 @@ using testing::TrianglePair;
 const Triangle GROUND{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
 TEST(TrianglesIntersect, TellsTouchingFromOneUnitInTheLastPlaceAway) {
-  const double up = std::nextafter(0.0, 1.0) * 0x1p+1000;  // about 5e-23: exact beside coordinates near 1
+  const double up = std::nextafter(0.0, 1.0) * 0x1p+1000;  // about 5e-23, exact near 0
   const Triangle touching{Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)};
   const Triangle apart{Vec3(1, 1, up), Vec3(2, 1, 4), Vec3(1, 2, 5)};
   const Triangle through{Vec3(1, 1, -up), Vec3(2, 1, 4), Vec3(1, 2, 5)};
@@ -27,10 +27,10 @@ TEST(TrianglesIntersect, TellsTouchingFromOneUnitInTheLastPlaceAway) {
 }
 
 TEST(TrianglesIntersect, KnowsCoplanarTriangles) {
-  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(1, 1, 0), Vec3(1.5, 1, 0), Vec3(1, 1.5, 0)}));    // inside
-  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(-9, -9, 0), Vec3(40, -9, 0), Vec3(-9, 40, 0)}));  // around
-  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(4, 0, 0), Vec3(9, 0, 0), Vec3(9, 3, 0)}));        // a corner
-  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(2, 2, 0), Vec3(9, 2, 0), Vec3(9, 3, 0)}));  // on an edge
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(1, 1, 0), Vec3(1.5, 1, 0), Vec3(1, 1.5, 0)}));
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(-9, -9, 0), Vec3(40, -9, 0), Vec3(-9, 40, 0)}));
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(4, 0, 0), Vec3(9, 0, 0), Vec3(9, 3, 0)}));
+  EXPECT_TRUE(triangles_intersect(GROUND, {Vec3(2, 2, 0), Vec3(9, 2, 0), Vec3(9, 3, 0)}));
   EXPECT_FALSE(triangles_intersect(GROUND, {Vec3(2.0001, 2, 0), Vec3(9, 2, 0), Vec3(9, 3, 0)}));
   EXPECT_FALSE(triangles_intersect(GROUND, {Vec3(-1, -1, 0), Vec3(-3, 4, 0), Vec3(-1, 9, 0)}));
 }

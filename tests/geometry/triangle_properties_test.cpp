@@ -19,7 +19,7 @@ namespace {
 using testing::Random;
 using testing::TrianglePair;
 
-/// Two distances of one pair may each be off by this part of the largest coordinate (see
+/// Each of two distances of one pair may be off by half of this part of the largest coordinate (see
 /// triangle_families_test.cpp).
 constexpr double DIFFERENCE_BOUND = 4.0 * COINCIDENCE_TOLERANCE;
 
@@ -27,8 +27,7 @@ double distance(const TrianglePair& pair) {
   return std::sqrt(triangle_distance(pair.a, pair.b).squared_distance);
 }
 
-/// A pair of any family but those whose magnitudes leave no room for a transform,
-/// and an engine to go on with.
+/// A pair of any family whose magnitudes leave room for a transform.
 TrianglePair any_pair(Random& random) {
   const auto families = testing::triangle_families();
   for (;;) {
@@ -39,7 +38,7 @@ TrianglePair any_pair(Random& random) {
   }
 }
 
-/// RapidCheck draws the seed, so that it can print and replay it; each seed stands for a run of pairs.
+/// RapidCheck draws a seed, which it can print and replay; each seed gives a number of pairs.
 Random seeded() {
   return Random(*rc::gen::arbitrary<std::uint64_t>());
 }
@@ -114,7 +113,7 @@ RC_GTEST_PROP(TriangleDistanceProperty, AnEdgeGivesTheSameBitsFromBothOfItsTrian
   Random random = seeded();
   for (int pair_number = 0; pair_number < PAIRS_A_SEED; ++pair_number) {
     const TrianglePair pair = any_pair(random);
-    // The neighbour over edge 0 runs along it the other way and stays within the coordinates.
+    // The neighbour has edge 0 in the other direction, and no larger coordinates.
     const Vec3 third = pair.a[0] + pair.a[1] - pair.a[2];
     const Triangle neighbour{pair.a[1], pair.a[0], 0.5 * (third + pair.a[0])};
     const auto first = triangle_distance(pair.a, pair.b);
@@ -133,9 +132,9 @@ RC_GTEST_PROP(TriangleDistanceProperty, AnEdgeGivesTheSameBitsFromBothOfItsTrian
   }
 }
 
-/// No point of the triangle is farther than this from a feature point: corners and edge middles cut it into
-/// four copies of half its size, and a ball of 1/sqrt(3) of a triangle's longest edge round every corner
-/// covers it (Jung).
+/// No point of the triangle is farther than this from a feature point. Corners and edge middles cut
+/// it into four copies of half its size; balls of 1/sqrt(3) of a triangle's longest edge round its
+/// corners cover it (Jung).
 double covering_radius(const Triangle& t) {
   return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()}) /
          (2.0 * std::sqrt(3.0));

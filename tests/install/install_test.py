@@ -20,7 +20,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.abspath(os.path.join(HERE, "..", ".."))
 CONSUMER = os.path.join(HERE, "consumer")
 BUILD = None
-# Of each compiler the build types, and where the library is. A release build is linked in any case.
+# For each compiler: the build types, and where the library is. A release build is always linked.
 ONE_CONSUMER = (("g++", ("Debug",), ("prefix",)),)
 EVERY_CONSUMER = tuple((compiler, ("Debug", "Release"), ("staged", "prefix")) for compiler in ("g++", "clang++"))
 CONSUMERS = ONE_CONSUMER
@@ -164,7 +164,7 @@ class Installed(unittest.TestCase):
         Path(manifest).write_text(json.dumps(document), encoding="utf-8")
         os.chmod(self.folder, 0o755)
         nobody = {}
-        if os.getuid() == 0:  # who may write anywhere
+        if os.getuid() == 0:  # root may write anywhere
             nobody = {"user": 65534}
             for folder in (home, os.path.dirname(os.path.dirname(sources)), os.path.dirname(sources), sources):
                 os.chown(folder, 65534, 65534)

@@ -33,7 +33,7 @@ class AgreementTest : public ::testing::Test {
     const auto& corners = surface.mesh.triangles[0];
     for (std::size_t i = 0; i < 3; ++i) corner_[i] = {FeatureKind::VERTEX, corners[i]};
     edge_ = {FeatureKind::EDGE, surface.adjacency.triangle_edges[0][0]};
-    // The corner diagonally across the box shares no triangle with the first one.
+    // The corner diagonally opposite on the box shares no triangle with the first one.
     const std::vector<Vec3>& vertices = surface.mesh.vertices;
     for (std::size_t v = 0; v < vertices.size(); ++v)
       if (vertices[v] == -vertices[static_cast<std::size_t>(corners[0])])

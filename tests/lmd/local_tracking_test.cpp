@@ -22,7 +22,7 @@ TEST(SetDirection, IsFromMovingToFixed) {
   EXPECT_EQ(lmd.direction, Vec3::UnitZ());
 }
 
-/// Decision E12, whoever says that the triangles touch: feature points may coincide without an intersection.
+/// Decision E12. Also without an intersection, because feature points may coincide.
 TEST(SetDirection, AtDistanceZeroIsTheLastValidOne) {
   for (const bool intersecting : {false, true}) {
     Lmd lmd = pair_at({1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}, intersecting);

@@ -37,7 +37,7 @@ TEST(NearFrame, CountsFromSixteenHalfDiagonals) {
   };
   EXPECT_FALSE(differs(15.9, 0.0));
   EXPECT_TRUE(differs(16.1, 0.0));
-  // In the world both meshes' sizes count.
+  // In the world frame the sizes of both meshes count.
   EXPECT_FALSE(differs(0.0, 31.9));
   EXPECT_TRUE(differs(0.0, 32.1));
 }

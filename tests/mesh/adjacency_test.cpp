@@ -50,8 +50,8 @@ TEST(AdjacencyTest, ListsATriangleOncePerEdge) {
   EXPECT_THAT(lists[1], ElementsAre(4));
 }
 
-// Random triangles on few vertices: every edge has many, some twice, some corners are equal; on many
-// vertices: enough for several tasks.
+// Random triangles. On few vertices every edge has many triangles, some twice, and corners may be
+// equal; on many vertices there is work for several tasks.
 class RandomAdjacencyTest : public ::testing::TestWithParam<std::int32_t> {};
 
 TEST_P(RandomAdjacencyTest, IsWhatTheDefinitionsSay) {

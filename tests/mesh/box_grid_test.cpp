@@ -20,17 +20,17 @@ Vec2 random_point(std::mt19937_64& random) {
   return {uniform(random), uniform(random)};
 }
 
-/// Boxes of one of several habits.
+/// Boxes of one of several kinds.
 std::vector<Box2> random_boxes(std::mt19937_64& random, int habit) {
   std::vector<Box2> boxes(1 + random() % 60);
   for (Box2& box : boxes) {
     Vec2 corner = random_point(random), size = 0.2 * random_point(random);
-    if (habit == 1) size *= random() % 8 == 0 ? 5.0 : 0.01;    // A few large among small ones.
+    if (habit == 1) size *= random() % 8 == 0 ? 5.0 : 0.01;    // A few large, many small.
     if (habit == 2) corner[1] = size[1] = 0.0;                 // On a line along x,
     if (habit == 3) corner[0] = size[0] = 0.0;                 // along y,
     if (habit == 4) corner = Vec2(0.5, 0.25), size.setZero();  // in one point,
     if (habit == 5) corner[1] *= 1e-9, size[1] *= 1e-9;        // nearly on a line.
-    if (habit == 6) {                                          // Sides that coincide with rows of cells.
+    if (habit == 6) {                                          // Sides coincide with rows of cells.
       corner = 0.125 * (8.0 * corner).array().floor().matrix();
       size.setConstant(0.125);
     }
@@ -48,7 +48,7 @@ TEST(BoxGrid, ListsEveryBoxThatComesWithinReachOfABoxOnce) {
     const BoxGrid grid(boxes);
     for (int k = 0; k < 20; ++k) {
       Box2 query;
-      // Corners of boxes too, where rows of cells begin.
+      // Some points are corners of boxes, where rows of cells begin.
       query.add(k % 2 == 0 ? 2.0 * random_point(random) - Vec2(0.5, 0.5)
                            : boxes[random() % boxes.size()].high);
       if (k % 3 == 0) query.add(query.low + random_point(random));
@@ -78,7 +78,7 @@ TEST(BoxGrid, StopsWhereItIsTold) {
   EXPECT_EQ(visits, 3);
 }
 
-/// Whether a segment passes a box that is larger by the reach: cut to its sides one after the other.
+/// Whether a segment meets a box enlarged by the reach; clips it by one side after the other.
 bool passes(const Box2& box, const Vec2& a, const Vec2& b, double reach) {
   double begin = 0.0, end = 1.0;
   for (int k = 0; k < 2; ++k) {
@@ -111,7 +111,7 @@ TEST(BoxGrid, ListsEveryBoxThatASegmentPasses) {
         b += 1e-15 * (random_point(random) - Vec2(0.5, 0.5)) * static_cast<double>(random() % 3);
       }
       if (k % 7 == 0) b = a;
-      // What is asked with is never less than a few roundings.
+      // Callers never ask with less than a few roundings.
       const double reach = k % 2 == 0 ? 1e-14 : 0.1 * uniform(random);
       std::vector<bool> is_visited(boxes.size(), false);
       grid.for_each_near(a, b, reach,
@@ -148,7 +148,7 @@ TEST(BoxGrid, KnowsItsBoundsAndHoldsNothingWithoutBoxes) {
 }
 
 TEST(BoxGrid, LongBoxesTakeNoMoreThanTheirNumber) {
-  // Of triangles round one vertex: each box covers a good part of all, a tenth of as many cells as there are boxes.
+  // Like triangles round one vertex: each box covers a tenth of as many cells as there are boxes.
   std::vector<Box2> boxes(20000);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(boxes.size());

@@ -69,7 +69,7 @@ TEST(CapsTest, IsAClosedDrumOfCaps) {
     EXPECT_TRUE(report(drum).manifold) << count;
     EXPECT_EQ(report(drum).boundary_edges, 0) << count;
   }
-  // The first ear cut off the lower outline.
+  // The first ear that was cut off the lower outline.
   const Triangle ear = make_caps(0.5, 0.6, 96).triangle(192);
   double widest = 0.0;
   for (int k = 0; k < 3; ++k) {

@@ -54,7 +54,7 @@ TEST(OrientOutward, SingleTurnedTrianglesJoinTheirNeighbours) {
   }
 }
 
-/// A ball with a bubble in it, in which a ball floats.
+/// A ball has a bubble inside, and another ball floats in that.
 TEST(OrientOutward, CavitiesFaceTheirInside) {
   for (const int wrong : {0, 1, 2, 3}) {
     TriangleMesh shells[] = {make_sphere(3, 2), inside_out(make_sphere(2, 2)), make_sphere(1, 2)};

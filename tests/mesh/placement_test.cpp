@@ -9,7 +9,7 @@
 namespace lmdbench {
 namespace {
 
-/// Sides 1, 2 and 2: a diagonal of 3. Its centre is not the origin.
+/// Sides 1, 2 and 2, so a diagonal of 3. The centre is not the origin.
 TriangleMesh box() {
   TriangleMesh mesh = make_box({1, 2, 2});
   for (Vec3& vertex : mesh.vertices) vertex += Vec3(10, 20, 30);

@@ -40,7 +40,7 @@ TEST(SelfIntersections, SoundSolidsHaveNone) {
 
 TEST(SelfIntersections, SolidsThatCrossAreFound) {
   const TriangleMesh mesh = merged(make_box({1, 1, 1}), translated(make_box({1, 1, 1}), {0.5, 0.3, 0.2}));
-  // Each against each, the long way.
+  // Brute force: every pair.
   std::int64_t expected = 0;
   for (std::int32_t i = 0; i < 12; ++i)
     for (std::int32_t j = 12; j < 24; ++j)
@@ -51,7 +51,7 @@ TEST(SelfIntersections, SolidsThatCrossAreFound) {
   EXPECT_THAT(to_text(found), HasSubstr("pairs of triangles touch or cross"));
 }
 
-/// The tree finds what every pair would.
+/// The tree finds the same pairs as brute force.
 TEST(SelfIntersections, RandomTrianglesAgreeWithEveryPair) {
   std::mt19937_64 random(3);
   const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };

@@ -29,7 +29,7 @@ std::vector<DeformationChoice> some_deformations() {
           {DeformationKind::CRUMPLE, 0.05, 0.5, Vec3(-1, 0, 0), 3}};
 }
 
-/// A shape without the numbers that an order of regions gives.
+/// A shape without the numbers of regions, which depend on their order.
 struct Named {
   std::vector<FeatureId> leads;
   std::vector<Vec3> normals, points, wings;
@@ -115,7 +115,7 @@ TEST(SurfaceChange, NamesWhatChanged) {
 }
 
 TEST(ShapeComplexFollow, ATriangleBesideARegionJoinsIt) {
-  // One vertex of a level sheet is lifted, less and less, until its triangles are part of the plane again.
+  // One vertex of a level sheet is lifted, ever less, until its triangles are in the plane again.
   const TriangleMesh flat = make_patch(2.0, 6, 0.0);
   Surface surface = build_surface(flat);
   ShapeComplex shape = ShapeComplex::of(surface);
@@ -132,7 +132,7 @@ TEST(ShapeComplexFollow, ATriangleBesideARegionJoinsIt) {
 }
 
 TEST(ShapeComplexFollow, ATriangleWithoutAreaThatGrowsBeyondItsEdgeHasFeatures) {
-  // Every third triangle has one along its first side; the vertex amid that side moves along the side, past its end.
+  // Zero-area triangles along first sides; a vertex inside such a side moves on, past its end.
   const TriangleMesh mesh = with_zero_areas(make_blob(1.0, 0.3, 2), 3);
   Surface surface = build_surface(mesh);
   ShapeComplex shape = ShapeComplex::of(surface);

@@ -31,7 +31,7 @@ TEST(TriangleNormalTest, IsTheSameAtEveryScale) {
 }
 
 TEST(TriangleNormalTest, KeepsItsDigitsOnNeedles) {
-  // Side ratio 1e8 in a plane that is not aligned with the axes; the exact normal is (1, 1, 1) / sqrt(3).
+  // Side ratio 1e8, in a plane not aligned with the axes; the exact normal is (1, 1, 1) / sqrt(3).
   const Vec3 along = Vec3(1, -1, 0) * 1e8, across(0, 1, -1);
   const Vec3 normal = triangle_normal({Vec3::Zero(), along, along + across});
   EXPECT_LT((normal - Vec3::Ones().normalized()).norm(), 1e-14);
@@ -106,7 +106,7 @@ TEST(SurfaceTest, MarksTheEndsOfNonManifoldEdges) {
   EXPECT_THAT(surface.vertex_is_boundary, ElementsAre(true, true, true, true, true));
 }
 
-/// Whether the triangles of each vertex are several groups that hang together over edges there: counted from the triangles alone.
+/// Whether the triangles of each vertex form several fans, connected over edges: by brute force.
 std::vector<bool> counted_several_fans(const TriangleMesh& mesh) {
   std::vector<bool> several;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.vertices.size()); ++v) {
@@ -153,8 +153,8 @@ TEST(SurfaceTest, KnowsWhereTrianglesAreSeveralFans) {
   EXPECT_FALSE(two_sheets.has_outer_side({FeatureKind::VERTEX, 0})) << "no normal";
 }
 
-/// Few vertices in many triangles that nobody put together: open, with edges of many triangles, turned over, lying twice, with repeated
-/// corners.
+/// Many triangles at random on few vertices: open, with edges of many triangles, turned over,
+/// duplicated, and with repeated corners.
 TEST(SurfaceTest, KnowsTheFansOfTrianglesThrownTogether) {
   std::mt19937_64 random(11);
   std::size_t several = 0, one = 0;

@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <string>
 
-/// Two convex bodies that are apart have exactly one LMD at every pose, and it is their distance.
+/// Two convex bodies that are apart have exactly one LMD at every pose, at their distance.
 namespace lmdbench {
 namespace {
 
@@ -22,7 +22,7 @@ using testing::ConvexBody;
 using testing::text;
 using testing::uniform;
 
-/// LMDBENCH_CONVEX_SCENES, or few.
+/// LMDBENCH_CONVEX_SCENES, or a few.
 int scene_count() {
   const char* const wanted = std::getenv("LMDBENCH_CONVEX_SCENES");
   return wanted != nullptr ? std::atoi(wanted) : 150;

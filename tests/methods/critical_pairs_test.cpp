@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-/// Critical pairs: their indices add up to the product of the solids' Euler characteristics, and the minima among them are the LMDs.
+/// Indices of critical pairs add up to the product of Euler characteristics; minima are the LMDs.
 namespace lmdbench {
 namespace {
 
@@ -41,7 +41,7 @@ std::vector<Solid> solids() {
           {"torus and box", merged(make_torus(1.0, 0.3, 10, 7), make_box({0.3, 0.4, 0.5}, 2)), 1}};
 }
 
-/// LMDBENCH_CRITICAL_POSES, or few.
+/// LMDBENCH_CRITICAL_POSES, or a few.
 int pose_count() {
   const char* const wanted = std::getenv("LMDBENCH_CRITICAL_POSES");
   return wanted != nullptr ? std::atoi(wanted) : 10;
@@ -117,7 +117,7 @@ TEST(CriticalPairs, OfConvexBodiesOnEachOtherAreTheOneLmd) {
         CriticalSet critical;
         WorkCounters counters;
         method->find_critical(pose, critical, counters);
-        // Nearer than the turn at which indices are taken says something they may intersect there.
+        // Nearer meshes may intersect at the slight turn in which indices are taken.
         if (critical.empty() || critical.front().pair.distance < 1e-7) continue;
         ++asked;
         EXPECT_TRUE(critical.size() == 1 && critical.front().index == 1 && critical.front().is_basin)
@@ -152,7 +152,7 @@ TEST(CriticalPairs, BordersHaveNoIndex) {
 }
 
 TEST(CriticalPairs, OfASphereInACavityOfABoxAddUp) {
-  // The block has a cavity: its solid's characteristic is 2. What is inside sees the cavity alone, as what is outside does not.
+  // The block has a cavity: its solid's characteristic is 2. The inner mesh faces the cavity alone.
   TriangleMesh cavity = make_sphere(1.0, 1);
   for (auto& t : cavity.triangles) std::swap(t[1], t[2]);
   const Scene scene =
@@ -172,7 +172,7 @@ TEST(CriticalPairs, OfASphereInACavityOfABoxAddUp) {
 }
 
 TEST(Merges, JoinTheMinimaRoundARing) {
-  // A ball over the hole of a facetted ring: minima and saddles take turns round it, and saddles lead down to both sides.
+  // A ball over the hole of a facetted ring: minima and saddles alternate round it.
   for (const int cells : {5, 8, 13}) {
     const Scene scene = testing::make_scene(make_blob(0.3, 0.05, 2), make_torus(1.0, 0.3, cells, 8), 1e3);
     const auto method = make_method("certified", scene);
@@ -214,7 +214,7 @@ TEST(Merges, JoinTheMinimaRoundARing) {
 }
 
 TEST(Merges, GiveUpWhereMeshesMeet) {
-  // Where they meet every pair of triangles is at distance 0: nothing leads down, and looking for a way would take all of them.
+  // Where meshes meet, all pairs are at distance 0: nothing descends, a search would visit all.
   const Scene scene = testing::make_scene(make_blob(1.0, 0.25, 3), make_torus(1.0, 0.4, 24, 16), 1.0);
   const auto method = make_method("certified", scene);
   std::mt19937_64 random(5);

@@ -42,7 +42,7 @@ TEST(Registry, DescriptionsAreCompleteAndDistinct) {
   }
 }
 
-/// A counter that two names share, or that has none, would be lost.
+/// Each counter needs one name of its own, or it would be lost.
 TEST(Registry, EveryCounterHasOneName) {
   for (const MethodDescription& method : method_descriptions()) {
     std::set<std::string> names;
@@ -58,9 +58,9 @@ TEST(Registry, EveryCounterHasOneName) {
   }
 }
 
-/// What a method counts is what its description says, in the parts that it says.
+/// A method counts what its description lists, in the listed parts.
 TEST(Registry, MethodsCountWhatTheyDescribe) {
-  // Grazing poses of curved meshes, and a box flush over a plate, where nothing is decided by a closed form.
+  // Grazing poses of curved meshes, and a box flush over a plate that no closed form decides.
   const Scene curved = testing::make_scene(make_blob(0.5, 0.1, 3), make_torus(0.5, 0.2, 32, 16), 0.1);
   const Scene flush = testing::make_scene(make_box({0.2, 0.2, 0.2}, 2), make_box({1.0, 1.0, 0.1}, 4), 0.1);
   std::mt19937_64 random(5);
@@ -68,7 +68,7 @@ TEST(Registry, MethodsCountWhatTheyDescribe) {
   for (int i = 0; i < 5; ++i) grazing.push_back(testing::grazing_pose(curved, 0.01, random));
   Pose over, tilted;
   over.translation = {0.01, 0.02, 0.24};
-  // So near and by so little that rounding decides, triangle by triangle.
+  // So near, and tilted so little, that rounding decides triangle by triangle.
   tilted.translation = {0.01, 0.02, 0.15 + 1e-8};
   tilted.rotation = Eigen::AngleAxisd(2e-8, Vec3::UnitX());
   for (const MethodDescription& description : method_descriptions()) {
@@ -171,7 +171,7 @@ TEST(WithDefaults, MatchesPropertiesAndDefaults) {
 }
 
 TEST(Registry, RefusesTwoHubsByANamedLimit) {
-  // A fan of so many triangles, whatever its shape.
+  // A fan of so many triangles.
   const auto fan = [](int triangles) {
     TriangleMesh mesh{.vertices = {Vec3::Zero()}, .triangles = {}};
     for (int i = 0; i <= triangles; ++i) mesh.vertices.emplace_back(1.0, i * 1e-3, 0.0);

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-/// Flat contact of meshes whose coordinates went through a file in single precision, each apart.
+/// Flat contact of meshes whose coordinates were rounded to single precision in files of their own.
 namespace lmdbench {
 namespace {
 
@@ -22,7 +22,7 @@ using testing::pose_of_seed;
 using testing::rounded_to_floats;
 using testing::uniform;
 
-/// Two meshes as designed, and as files hold them: turned apart, rounded apart.
+/// Two meshes as designed, and as in files: each turned and rounded on its own.
 struct Pair {
   Scene exact, rounded;
   Pose X_WD;  ///< Of the fixed file's frame; D is the frame of the design.
@@ -49,7 +49,7 @@ LmdSet answer(const char* method, const Scene& scene, const Pose& pose) {
   return lmds;
 }
 
-/// Expects the rounded pair to have the exact pair's contacts: as many, at the same places.
+/// Expects as many contacts of the rounded pair as of the exact pair, at the same places.
 void expect_same_contacts(const Pair& pair, const Pose& X_DA, double size, std::size_t count) {
   const Pose X_WA = pair.X_WD * X_DA;
   const LmdSet exact = answer("exhaustive", pair.exact, X_WA);
@@ -122,8 +122,8 @@ TEST(RoundedFaces, ParallelEdgesAreOneContact) {
   }
 }
 
-// A face that is all but parallel to a plate rests on one of its edges. Where that edge crosses the plate's border is a tie,
-// which brings the triangles there: over them alone the edge is parallel to the plate.
+// A face nearly parallel to a plate rests on one of its edges. Where that edge crosses the border
+// the distance is a tie, and over the triangles there alone the edge is parallel to the plate.
 TEST(RoundedFaces, AnEdgeAcrossABorderIsJudgedAsAWhole) {
   for (std::uint64_t seed = 0; seed < 10; ++seed)
     for (const double along : {-1.6e-6, 8e-7, 1.6e-6})

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double CUTOFF = 0.05;
 
-/// Two spheres that approach along x; their poles face each other as vertices. F_max is 2 N, the law linear.
+/// Two spheres that approach along x, vertex to vertex. F_max is 2 N, the law linear.
 PreparedRun approach(const std::vector<double>& gaps) {
   PreparedRun run{
       .profiles = {{"",
@@ -43,7 +43,7 @@ struct Judged {
   TrueSets truth;
 };
 
-/// Numbers of a method that has the true sets but for the frames that are listed, in which it has none.
+/// Numbers of a method that has the true sets except in the listed frames, where it has none.
 Judged blind_in(const PreparedRun& run, const std::vector<std::size_t>& blind,
                 const std::vector<bool>& in_contact) {
   Judged judged;
@@ -82,7 +82,7 @@ TEST(TrueSets, IsTheExhaustiveSetAndSaysWhereItWasChecked) {
 }
 
 TEST(StepNumbers, APerfectMethodJumpsWhereTruthDoesAndNowhereElse) {
-  // From 0.02 N to 1.6 N is a jump of more than a quarter of F_max; the others are 0.1 of it.
+  // From 0.02 N to 1.6 N is a jump of more than a quarter of F_max; other changes are 0.1 of it.
   const PreparedRun run = approach({0.0495, 0.01, 0.0125, 0.015, 0.0175});
   const StepNumbers numbers = blind_in(run, {}, std::vector<bool>(5, true)).numbers;
   EXPECT_EQ(numbers.jumps, 1.0);

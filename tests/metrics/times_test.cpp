@@ -9,7 +9,7 @@
 namespace lmdbench {
 namespace {
 
-/// Six frames, searches at 0, 2 and 4; a warm-up that must be in no number, then three repetitions.
+/// Six frames, searches at 0, 2 and 4; a warm-up that counts in no number, then three repetitions.
 class TimesTest : public ::testing::Test {
  protected:
   TimesTest() {

@@ -21,7 +21,7 @@ namespace {
 
 const std::filesystem::path ROOT = LMDBENCH_SOURCE_DIR;
 
-/// Every n-th frame is enough here: `lmdbench path info --spec` checks them all.
+/// Every tenth frame is enough here: `lmdbench path info --spec` checks all frames.
 constexpr std::size_t STRIDE = 10;
 
 class CommittedPath : public ::testing::TestWithParam<const char*> {
@@ -36,7 +36,7 @@ TEST_P(CommittedPath, HasTheTimesAndSpeedsOfItsSpecification) {
   EXPECT_NEAR(path_.end_time(), spec_.duration(), 1e-9);
   EXPECT_EQ(facts.pose_count, static_cast<std::size_t>(spec_.duration() * spec_.stored_rate + 1.5));
   EXPECT_EQ(facts.frame_count, static_cast<std::size_t>(spec_.duration() * spec_.frame_rate + 1.5));
-  // The radial motion keeps its limits; sliding and interpolation add theirs. A jump would be far beyond.
+  // The radial motion keeps its limits; sliding and interpolation add to it. A jump adds far more.
   EXPECT_LT(facts.maximum_speed, 2.0 * spec_.radial_speed.value());
   EXPECT_LT(facts.maximum_acceleration, 2.0 * spec_.radial_acceleration.value());
   EXPECT_GT(facts.turning, 0.3);

@@ -72,7 +72,7 @@ TEST(FirstReach, TouchesABallAtTheGap) {
 }
 
 TEST(FirstReach, StopsAtTheFirstContactFromOutside) {
-  // The moving ball meets the outer of two fixed balls, not the one at the centre.
+  // From this side the moving ball meets the outer fixed ball, not the one at the centre.
   const PathScene scene = ball_scene({{Vec3::Zero(), 0.01}}, Vec3::Zero(), 0.01,
                                      {{Vec3::Zero(), 0.01}, {Vec3(0.1, 0, 0), 0.01}}, Vec3::Zero(), 0.11);
   EXPECT_NEAR(first_reach(scene, Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 0.121, 2e-6);
@@ -111,7 +111,7 @@ TEST(WantedGap, StepsMonotonouslyFromPointToPoint) {
   EXPECT_EQ(wanted_gap(gaps, 9.0), 0.01);
   for (double t = 0.001; t < 1.0; t += 0.001)
     EXPECT_LE(wanted_gap(gaps, t), wanted_gap(gaps, t - 0.001)) << t;
-  // It rests at the points.
+  // The gap has slope 0 at the points.
   EXPECT_NEAR(wanted_gap(gaps, 0.01), 0.1, 0.1 * 1e-4);
   EXPECT_NEAR(wanted_gap(gaps, 0.99), 0.001, 0.001 * 1e-4);
 }
@@ -129,8 +129,8 @@ TEST(GeneratePath, TwoBallsFollowTheGapProfile) {
     const double gap = BALLS.distance(frames[k].pose);
     const double wanted = 0.15 * wanted_gap(spec.gaps, frames[k].time);
     EXPECT_GE(gap, wanted * (1.0 - 1e-3) - 1e-7) << k;
-    // In close contact the gap is the wanted one to a part in a hundred; on the way in
-    // the limits may hold it back.
+    // In close contact the gap is as wanted to a part in a hundred; during the approach the limits
+    // may delay it.
     if (wanted_gap(spec.gaps, frames[k].time) < 0.0011 && frames[k].time > 1.2 && frames[k].time < 2.0) {
       EXPECT_LE(gap, wanted * 1.01) << k;
     }
@@ -159,14 +159,14 @@ TEST(GeneratePath, JumpingContactsKeepTheGapAndTheLimits) {
     const GapMeasure measure = measure_gaps(frames, DUMB_BELLS.distance);
     for (std::size_t k = 0; k < frames.size(); ++k) {
       const double wanted = 0.15 * wanted_gap(spec.gaps, frames[k].time);
-      EXPECT_GE(measure.gaps[k], wanted - 1e-5) << k;  // a t^2 / 8 between stored poses is 4 um
+      EXPECT_GE(measure.gaps[k], wanted - 1e-5) << k;  // a t^2 / 8 = 4 um between poses
     }
     EXPECT_GT(measure.smallest(), spec.gap_floor * 0.15);
     EXPECT_LT(measure.smallest(), 0.001 * 0.15) << "close contact is reached";
     const PathFacts facts = path_facts(interpolator, 1000.0);
     EXPECT_LT(facts.maximum_speed, 0.3);
     EXPECT_LT(facts.maximum_acceleration,
-              4.0);  // radial 2, the cubic's up to half as much more, and the turning
+              4.0);  // radial 2, the cubic up to half as much, and the turn
   }
 }
 

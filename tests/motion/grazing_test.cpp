@@ -16,7 +16,7 @@
 namespace lmdbench {
 namespace {
 
-/// Meshes of like and unlike sizes, far from their origins.
+/// Meshes of similar and different sizes, far from their origins.
 PathScene scene(double moving_diagonal, double fixed_diagonal) {
   TriangleMesh moving = scaled_to_diagonal(make_box({1, 2, 2}), moving_diagonal);
   for (Vec3& vertex : moving.vertices) vertex += Vec3(0.3, 0.1, 0);
@@ -71,7 +71,7 @@ TEST(Grazing, ItsSpecificationReadsBackAndMakesTheSamePath) {
 
 TEST(Grazing, MeshesThatCannotMeetAreRefused) {
   PathScene never = scene(0.1, 0.15);
-  never.distance = [](const Pose&) { return 0.0; };  // the one inside the other wherever they are
+  never.distance = [](const Pose&) { return 0.0; };  // they intersect wherever they are
   EXPECT_THROW(grazing_path(never, 0.002, 1000.0), InputError);
 }
 

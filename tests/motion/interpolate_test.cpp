@@ -151,7 +151,7 @@ TEST(Resample, FramesAreExactInTime) {
 }
 
 TEST(Resample, KeepsTheLastFrameInSpiteOfRounding) {
-  // 0.1 s steps added up: the end lies an ulp or so before 0.3 s + start.
+  // Steps of 0.1 s add up to an ulp or so less than 0.3 s + start.
   Path path(2);
   path[0].time = 0.1;
   path[1].time = std::nextafter(0.4, 0.0);

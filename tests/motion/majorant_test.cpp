@@ -44,7 +44,7 @@ TEST(BoundedMajorant, AddsLittleToMotionWithinTheLimits) {
     samples.push_back(0.1 + 0.003 * std::sin(10.0 * i * STEP));  // 30 mm/s, 0.3 m/s^2
   const std::vector<double> majorant = bounded_majorant(samples, STEP, LIMITS);
   expect_above(majorant, samples);
-  // One pass would add v^2/(2a) = 0.2 mm.
+  // A single pass would add v^2/(2a) = 0.2 mm.
   for (std::size_t i = 100; i < samples.size() - 100; ++i) EXPECT_LT(majorant[i] - samples[i], 2e-6) << i;
 }
 
@@ -61,7 +61,7 @@ TEST(BoundedMajorant, SpikeIsMetByACap) {
 }
 
 TEST(BoundedMajorant, CornerIsRoundedFromAboveByLittle) {
-  // No curve of acceleration a passes lower than s^2/(2a) over a corner between slopes -s and s.
+  // No curve of acceleration a is lower than s^2/(2a) above a corner between slopes -s and s.
   const double slope = 0.02;
   std::vector<double> samples;
   for (int i = -1000; i <= 1000; ++i) samples.push_back(slope * std::abs(i) * STEP);
@@ -96,8 +96,8 @@ TEST(BoundedMajorant, KeepsTheLimitsAboveRoughAndJumpingSamples) {
   }
 }
 
-/// Limits under which a cap falls by next to nothing along the whole path: no cap rules out another one early. Found by the
-/// hostile set, where the highest of all caps at every sample took the square of the samples.
+/// A cap hardly falls along the whole path, so no cap rules out another one early. A search for the
+/// highest cap at every sample would take the square of the number of samples.
 TEST(BoundedMajorant, CapsAsWideAsALongPath) {
   std::vector<double> samples(500'000, 0.0);
   samples[300'000] = 1.0;

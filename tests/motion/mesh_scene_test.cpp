@@ -34,7 +34,7 @@ TEST(MeshScene, DistancesDoNotDependOnEarlierOnes) {
   const TriangleMesh blob = scaled_to_diagonal(make_blob(1.0, 0.2, 3), 0.15);
   const PathScene warm = mesh_scene(torus, blob);
   for (int i = 0; i < 60; ++i) {
-    // Small steps, now and then a jump.
+    // Small motions, and a jump now and then.
     const double t = 0.01 * i + (i % 10 == 0 ? 2.0 : 0.0);
     const Pose pose = {rotation_of(Vec3(t, 0.5, -t)) * Vec3(0.15, 0, 0), rotation_of(Vec3(0, t, 1.0))};
     const PathScene cold = mesh_scene(torus, blob);
@@ -42,8 +42,8 @@ TEST(MeshScene, DistancesDoNotDependOnEarlierOnes) {
   }
 }
 
-// Along the whole way in the gap is not had before, there it is, and conservative advancement stops there or, nearly
-// tangential, a little farther out.
+// Everywhere before it the gap is larger, and there it is reached. Conservative advancement stops
+// there or, at a nearly tangential approach, a little farther out.
 TEST(MeshScene, ReachIsWhereTheGapIsHadForTheFirstTime) {
   const TriangleMesh torus = scaled_to_diagonal(make_torus(1.0, 0.4, 24, 12), 0.15);
   const TriangleMesh plate = make_box(Vec3(0.4, 0.4, 0.01));
@@ -75,7 +75,7 @@ TEST(MeshScene, ReachIsWhereTheGapIsHadForTheFirstTime) {
 }
 
 TEST(MeshScene, WhatIsNeverReachedIsZero) {
-  // Through the hole of a ring along its axis.
+  // The ball passes through the hole of a ring along its axis.
   const PathScene scene = mesh_scene(make_sphere(0.1, 2), make_torus(1.0, 0.3, 40, 20));
   EXPECT_EQ(first_reach(scene, Vec3::UnitZ(), Eigen::Quaterniond::Identity(), 1e-3), 0.0);
   EXPECT_GT(first_reach(scene, Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 1.3);

@@ -28,7 +28,7 @@ TEST(Sway, GoesAsFarAsItsRuleSaysAndComesBackAfterAPeriod) {
 
 TEST(Sway, HasNoJumpOfPositionOrVelocity) {
   const SwayMotion motion(RULE, 3, CENTRE, 2.0);
-  constexpr double STEP = 1e-5, FASTEST = 8.0 * 1.0 / 0.2;  // slope of the parabolas, way of 1 m
+  constexpr double STEP = 1e-5, FASTEST = 8.0 * 1.0 / 0.2;  // slope of parabolas, 1 m high
   Vec3 last_velocity = (motion.at(STEP).translation - motion.at(0.0).translation) / STEP;
   for (int k = 1; k < 40000; ++k) {
     const Vec3 velocity = (motion.at(STEP * (k + 1)).translation - motion.at(STEP * k).translation) / STEP;

@@ -87,13 +87,12 @@ TEST(ReadTum, RoundTripKeepsEveryBit) {
 }
 
 TEST(ReadTum, NormalisedQuaternionsKeepTheirBitsAndOthersAreNormalised) {
-  const Path path =
-      read_text("0 0 0 0 0.1826 0.3651 0.5477 0.7303\n");  // four decimals: length off by about 2e-5
+  const Path path = read_text("0 0 0 0 0.1826 0.3651 0.5477 0.7303\n");  // length off by 2e-5
   EXPECT_NEAR(path[0].pose.rotation.norm(), 1.0, 1e-15);
   expect_same_bits(read_text(tum_text(path)), path);
 }
 
-/// Decimal comma and thousands points, as in a German locale, whether or not one is installed.
+/// Decimal comma and thousands separators as in a German locale, which need not be installed.
 class GermanNumbers : public std::numpunct<char> {
  protected:
   char do_decimal_point() const override { return ','; }

@@ -32,7 +32,7 @@ TEST(Wander, RotationsFollowTheAngularVelocity) {
     const Vec3 turn = rotation_vector_of(rotations[k + 1] * rotations[k].conjugate()) / 0.001;
     EXPECT_LT((turn - wander.angular_velocity((static_cast<double>(k) + 0.5) * 0.001)).norm(), 1e-9);
   }
-  // Ten times finer steps end at the same place.
+  // With a tenth of the time step the path ends at the same place.
   const auto fine = wander.rotations(start, 0.0001, 30001);
   EXPECT_LT(rotation_vector_of(fine.back() * rotations.back().conjugate()).norm(), 1e-6);
 }

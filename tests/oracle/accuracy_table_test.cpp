@@ -29,7 +29,7 @@ const std::vector<AccuracyRow>& published_rows() {
 }
 
 TEST(AccuracyTable, IsTheOneThatIsPublished) {
-  // The claim first: no wrong answer of ours in any family, and others are wrong where the families say so.
+  // Our kernel has no wrong answer in any family; others have some in families made for that.
   int wrong_fcl = 0;
   for (const AccuracyRow& row : published_rows()) {
     EXPECT_EQ(row.cells[0].wrong, 0) << row.family;
@@ -44,7 +44,7 @@ TEST(AccuracyTable, IsTheOneThatIsPublished) {
       << table;
 }
 
-/// A row of a published table: how many answers were wrong, gross and false contacts, and the largest error.
+/// A cell of a published table: wrong answers, gross errors, false contacts; largest error.
 struct PublishedCell {
   int wrong = 0, gross = 0, false_contacts = 0;
   double worst = 0.0;
@@ -74,7 +74,7 @@ std::string row_of(const std::string& text, const std::string& family) {
 }
 
 TEST(AccuracyTable, OfAMillionPairsHoldsTheBeginningOfEachFamily) {
-  // The published short table is made of the first pairs of the long one: what is wrong there is wrong here.
+  // The short table uses the first pairs of the long one: its wrong answers are wrong there too.
   const std::string million = published(MILLION_TABLE);
   const std::string brief = accuracy_markdown(published_rows(), PUBLISHED_PAIRS);
   ASSERT_NE(million.find(brief.substr(0, brief.find('\n') + 1)), std::string::npos) << "other kernels";

@@ -31,8 +31,8 @@ Pose moved(double x, double y, double z) {
 
 TEST(ExactLmds, ACornerOverAFaceIsOneVertexFacePair) {
   const Scene scene = make_scene(make_wedge(0.1, 0.1, 0.1), make_box({1, 1, 1}), 0.05);
-  // A vertex of the box's upper side lies far away; the wedge stands on its edge, turned upside down and
-  // tilted, so that one end of the edge is lowest.
+  // A vertex of the box's upper side is far away. The wedge is upside down on its edge, tilted so
+  // that one end of the edge is lowest.
   Pose pose;
   pose.rotation = Eigen::AngleAxisd(0.2, Vec3::UnitX()) * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitY());
   pose.translation = {0.21, 0.07, 0.58};
@@ -44,8 +44,8 @@ TEST(ExactLmds, ACornerOverAFaceIsOneVertexFacePair) {
 }
 
 TEST(ExactLmds, ParallelFacesGiveTheCornersOfTheirOverlap) {
-  // All numbers are exact in binary; the overlap is a rectangle with four corners: two vertices on a face
-  // from each box or crossings of edges, and the crossings with the diagonals of the two sides.
+  // All numbers are exact in binary. The overlap is a rectangle: its corners are vertices over
+  // faces or crossings of edges; further LMDs are crossings with the diagonals of both sides.
   const Scene scene = make_scene(make_box({1, 1, 1}), make_box({1, 1, 1}), 0.5);
   const std::vector<ExactLmd> lmds = exact::exact_lmds(scene, moved(0.25, 0.5, 1.125));
   ASSERT_GE(lmds.size(), 4u);
@@ -53,14 +53,14 @@ TEST(ExactLmds, ParallelFacesGiveTheCornersOfTheirOverlap) {
 }
 
 TEST(ExactLmds, InsideAndOutsideAreToldApart) {
-  // A small box inside a large one: nearest points exist, but never on the outer side.
+  // A small box inside a large one: the nearest points are never on the outer side.
   const Scene scene = make_scene(make_box({0.5, 0.5, 0.5}), make_box({1, 1, 1}), 1.0);
   EXPECT_TRUE(exact::exact_lmds(scene, moved(0.1, 0.05, 0.02)).empty());
 }
 
 TEST(ExactLmds, TrianglesAroundAPointAreAllThatHoldIt) {
-  // A vertex in the middle of the upper side that belongs to a triangle without area alone: the side runs on
-  // around it, so it carries no LMD of its own with a corner that hangs aside.
+  // A vertex in the middle of the upper side that only belongs to a triangle without area: the side
+  // continues around it, so it has no LMD of its own with a corner that hangs beside it.
   TriangleMesh box = make_box({1, 1, 1});
   const auto first = static_cast<std::int32_t>(box.vertices.size());
   for (int i = 0; i < 3; ++i) box.vertices.emplace_back(0.25, 0.125, 0.5);
@@ -96,7 +96,7 @@ TEST(ExactLmds, TheComparisonSeesWhatIsMissingAndWhatIsUntrue) {
   EXPECT_EQ(compare_with_exact(found, truth).missed.size(), 1u);
 }
 
-/// Frames of an experiment that are judged: each scene takes its share of a given number.
+/// Frames of an experiment to judge: each scene takes its share of a given number.
 struct SampledScene {
   std::string file;
   std::int64_t frames;
@@ -122,9 +122,9 @@ bool takes_seconds_a_frame(const std::filesystem::path& scene) {
   return large.contains(scene.stem().string());
 }
 
-/// All but those of meshes rounded to floats: the exact judge takes coordinates at their word, and to the letter a contact of
-/// rounded faces is a point, not the plateau of the planar tolerance. Those are compared with the truth as it is defined for
-/// them (FlatScenesOfTheStudy, RoundedFaces).
+/// All scenes but those of meshes rounded to floats. The exact judge takes coordinates literally,
+/// and then a contact of rounded faces is a point, not the area within the planar tolerance. Those
+/// scenes are compared with the truth as defined for them (FlatScenesOfTheStudy, RoundedFaces).
 std::vector<SampledScene> extreme_scenes() {
   std::vector<SampledScene> scenes;
   const std::filesystem::path folder = LMDBENCH_SOURCE_DIR "/experiments/extreme";
@@ -147,7 +147,7 @@ std::string name_of(const ::testing::TestParamInfo<SampledScene>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Extreme, ExactTruth, ::testing::ValuesIn(extreme_scenes()), name_of);
-/// Fetched meshes: only under the label of the long runs.
+/// Fetched meshes: only in the long runs.
 INSTANTIATE_TEST_SUITE_P(Fetched, ExactTruth,
                          ::testing::Values(SampledScene{"bunny-hard.json", 40},
                                            SampledScene{"bunny-soft.json", 20},

@@ -26,7 +26,7 @@ LmdSet truth_of(const Scene& scene, const Pose& pose) {
   return lmds;
 }
 
-/// A scene, its LMDs, and what the judge says of them.
+/// A scene, its LMDs, and the judge's verdict on them.
 class FlatJudgeTest : public ::testing::Test {
  protected:
   void set(TriangleMesh moving, TriangleMesh fixed, const Pose& pose) {
@@ -76,7 +76,7 @@ TEST_F(FlatJudgeTest, SeesWhatIsMissedDoubledAndUntrue) {
 }
 
 TEST_F(FlatJudgeTest, CutsLikeTheUnionWhateverTheTriangles) {
-  // A ring round a square hole: four trapezoids of overlap are one area, and its centroid lies in the hole.
+  // A ring round a square hole: four trapezoids of overlap are one area, its centroid in the hole.
   const double lines[] = {-0.5, -0.25, 0.25, 0.5};
   parts::PrismComplex frame({0.0, 0.25});
   frame.add_grid(lines, lines, [](std::size_t i, std::size_t j) {
@@ -89,7 +89,7 @@ TEST_F(FlatJudgeTest, CutsLikeTheUnionWhateverTheTriangles) {
 }
 
 TEST_F(FlatJudgeTest, AStepHasALevelPlaceWithAWayDown) {
-  // The underside is level at .02 over [0, .5] and at .01 over [.5, 1]: from the higher part a wall leads down.
+  // The underside is level at .02 over [0, .5], at .01 over [.5, 1]; between them a wall descends.
   parts::PrismComplex step({0.0, 0.01, 0.25});
   const double xs[] = {0.0, 0.5, 1.0}, ys[] = {0.0, 0.5};
   step.add_grid(xs, ys, [](std::size_t i, std::size_t) -> parts::Layers { return i == 0 ? 0b10 : 0b11; });
@@ -110,7 +110,7 @@ TEST_F(FlatJudgeTest, AStepHasALevelPlaceWithAWayDown) {
 }
 
 TEST_F(FlatJudgeTest, AsksForNothingThroughAThinWall) {
-  // The upper plate is thinner than the cutoff and has a pit in its upper side, whose floor is a basin: of the inside.
+  // The upper plate is thinner than the cutoff; the floor of its pit is a basin, but faces away.
   const double lines[] = {-0.5, -0.25, 0.25, 0.5};
   parts::PrismComplex plate({0.0, 0.0078125, 0.015625});
   plate.add_grid(lines, lines, [](std::size_t i, std::size_t j) -> parts::Layers {
@@ -131,13 +131,13 @@ TEST_F(FlatJudgeTest, LeavesATiltWithinTheToleranceToIt) {
   Pose pose = moved(0.0, 0.0, 0.5078125);
   pose.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(1e-12, Vec3::UnitX()));
   set(make_box({1.0, 1.0, 0.5}, 1), make_box({2.0, 2.0, 0.5}, 1), pose);
-  // In exact arithmetic an edge is lowest; the middle of the face is within the tolerance of it.
+  // In exact arithmetic an edge is lowest; the middle of the face is within the tolerance.
   EXPECT_EQ(truth_->demanded(), 1u);
   EXPECT_EQ(judged().faults(), 0u) << objections_;
 }
 
 TEST(FlatJudge, FindsNothingWrongWhereFeetFallOnEndsOfSlits) {
-  // Poses in which sides are aligned: a crossing of two chains at the end of one, and a corner beside the end of a side.
+  // Aligned sides: two chains cross at the end of one, and a corner is beside the end of a side.
   struct Found {
     const char* kind;
     parts::Coordinates coordinates;

@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 #include <judge/exact_distance.h>
 
-/// Rows of the disagreement ledger, pasted as lmdbench-judge ledger prints them: they show that a row reproduces
-/// what it tells, and keep two errors of FCL's kernel on parallel edges for good.
+/// Rows of the disagreement ledger, as lmdbench-judge ledger prints them. They show that a row can
+/// be reproduced, and keep two errors of FCL's kernel on parallel edges.
 namespace lmdbench {
 namespace {
 
 using testing::exact_distance;
 
-/// Two cubes that slide past each other, 4.8 mm apart: contact where there is none.
+/// Two cubes that slide past each other, 4.8 mm apart: FCL reports a contact.
 TEST(LedgerRows, ExtremeFlushCubesFrame72) {
   const Pose X_WM{Vec3(-0.053444571428571418, -0.033325714285714292, 0.037769142857142862),
                   Eigen::Quaterniond(-0.50709255283710997, 0.1690308509457033, 0.67612340378281321,
@@ -44,11 +44,11 @@ TEST(LedgerRows, ExtremeFlushCubesFrame72) {
   }
 }
 
-/// Two triangles with parallel bases: three and a half times too far, so that the
-/// meshes come out too far as well.
+/// Two triangles with parallel bases: FCL's distance is three and a half times too large, and so is
+/// that of the meshes.
 TEST(LedgerRows, ExtremeCombsFrame453) {
   const Pose X_WM{Vec3(-0.020473780035273368, 0.01002052910052911, 0.0056515249664903008),
-                  Eigen::Quaterniond(0.11968797676063503, 0, 0.99281155725492332, 0)};  // w, x, y, z
+                  Eigen::Quaterniond(0.11968797676063503, 0, 0.99281155725492332, 0)};
   {
     // the nearest pair: triangle 1 of the moving mesh and 2 of fixed mesh 0
     const Triangle moving_M{Vec3(-0.018645030268701734, -0.024471602227671026, -0.0093225151343508672),

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 
 const std::string TINY = LMDBENCH_SOURCE_DIR "/experiments/extreme/tiny.json";
 
-/// A scene of one micrometre: FCL must be wrong on it unless it is scaled.
+/// A scene of one micrometre: without scaling FCL must be wrong on it.
 std::filesystem::path run_tiny(const testing::ScratchDirectory& folder, const std::string& stride) {
   const std::filesystem::path file = folder / "tiny.h5";
   run_experiment_to_file(load_experiment(TINY, {"/driver/repetitions=1", "/probes/truth/stride_frames=0",

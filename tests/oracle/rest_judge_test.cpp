@@ -22,7 +22,7 @@ std::size_t faults(const RestVerdict& verdict, RestFault fault) {
   return verdict.faults[static_cast<std::size_t>(fault)];
 }
 
-/// A box between two walls and on a floor, apart in all directions by gaps that differ.
+/// A box between two walls and on a floor, with different gaps in all directions.
 parts::RestScene apart() {
   for (std::size_t index = 0;; ++index) {
     parts::RestScene scene = make_rest_scene(parts::rest_fit("box in channel"), 1, index);
@@ -35,7 +35,7 @@ parts::RestScene apart() {
   }
 }
 
-/// The answer by construction: a pair of faces in the middle of each place.
+/// The correct set: one pair of faces in the middle of each place.
 LmdSet right_answer(const parts::RestScene& scene) {
   LmdSet lmds = set_of("exhaustive", scene);
   std::erase_if(lmds, [&](const Lmd& lmd) { return lmd.intersecting; });
@@ -57,7 +57,7 @@ TEST(RestJudge, AcceptsWhatIsRightAndSeesEveryFault) {
   lmds = right;
   lmds.push_back(right.back());
   EXPECT_EQ(faults(truth.judge(lmds), RestFault::DOUBLED), 1u);
-  // Two contacts at a mean distance, between their directions.
+  // One contact gets a direction between its own and that of another contact.
   lmds = right;
   lmds[1].direction = (right[0].direction + right[1].direction).normalized();
   EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
@@ -71,7 +71,7 @@ TEST(RestJudge, AcceptsWhatIsRightAndSeesEveryFault) {
   EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
 }
 
-/// Poses of each fit; a table over more is lmdbench-judge rest.
+/// Poses of each fit; lmdbench-judge rest makes a table over more.
 constexpr std::size_t POSES = 15;
 
 TEST(RestJudge, FindsNothingWrongWherePartsRest) {
@@ -87,7 +87,7 @@ TEST(RestJudge, FindsNothingWrongWherePartsRest) {
         EXPECT_EQ(truth.judge(set_of(method, scene)).objections, "") << method << ": " << scene.text;
     }
   }
-  // The judge has something to say.
+  // Enough scenes do not intersect and have LMDs to judge.
   EXPECT_LT(2 * intersecting, poses);
   EXPECT_GT(demanded, poses);
 }

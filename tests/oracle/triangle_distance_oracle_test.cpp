@@ -22,14 +22,14 @@ using testing::TrianglePair;
 /// As in geometry/triangle_families_test.cpp; the published bound is 1e-12.
 constexpr double ERROR_BOUND = 2.0 * COINCIDENCE_TOLERANCE;
 
-/// Pairs a family that are judged in rational arithmetic, by far the slowest judge.
+/// Pairs per family that are judged in rational arithmetic, by far the slowest judge.
 constexpr int PAIRS = 1000;
-/// Pairs on which it judges the quick judges: extended precision, which the geometry tests use, and the
-/// bracket that the accuracy tables stand on.
+/// Pairs on which it judges the quick judges: extended precision, which the geometry tests use, and
+/// the bracket of the accuracy tables.
 constexpr int QUICK_PAIRS = 400;
 /// Error of the extended precision reference, with room.
 constexpr double REFERENCE_BOUND = 1e-15;
-/// What rational arithmetic loses when it is rounded to a double.
+/// Rounding of a rational result to a double.
 constexpr long double LAST_ROUNDING = std::numeric_limits<double>::epsilon();
 
 class TriangleOracle : public ::testing::TestWithParam<testing::TriangleFamily> {};

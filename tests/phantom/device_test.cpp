@@ -46,7 +46,7 @@ TEST(Device, EveryFigureHasUnitSourceAndTrust) {
     expect_sound(device.torque, "N m");
     for (const DeviceFigure& side : device.workspace) expect_sound(side, "m");
     if (device.maximum_force.trust == Trust::DEFINED) continue;
-    // Rendering depends on these two: they must be known, in this order.
+    // Rendering depends on these two limits, which must be known, in this order.
     EXPECT_LT(device.continuous_force.value, device.maximum_force.value);
     EXPECT_EQ(device.maximum_force.trust, Trust::STATED);
     // Units slip most easily in the small figures.

@@ -16,12 +16,12 @@ double within(double least, double most, int percent) {
   return least + (most - least) * percent / 100.0;
 }
 
-/// Colgate: whatever the hand does, K <= 2 b / T gives no net energy, at no tick.
+/// Colgate's condition K <= 2 b / T: whatever the hand does, no frame gains net energy.
 RC_GTEST_PROP(Passivity, WallWithinColgatesConditionNeverGivesEnergy, ()) {
   const double period = *rc::gen::element(1e-4, 1e-3, 4e-3);
   const double damping = within(0.1, 5.0, *rc::gen::inRange(0, 101));
   const SampledWall wall{2.0 * damping / period * within(0.05, 1.0, *rc::gen::inRange(0, 101)), period, 0.0};
-  // No damper in the hand: what is damped is damped by the device.
+  // The hand has no damper: only the device damps.
   const Hand hand{"pulls", within(0.0, 1.0, *rc::gen::inRange(0, 101)),
                   0.0,     within(10.0, 2000.0, *rc::gen::inRange(0, 101)),
                   0.0,     0.0};
@@ -37,7 +37,7 @@ RC_GTEST_PROP(Passivity, WallWithinColgatesConditionNeverGivesEnergy, ()) {
   }
 }
 
-/// Above the condition, and below it, the energy of each period is what theory gives.
+/// Above the condition and below it, the energy of each period is as in theory.
 RC_GTEST_PROP(Passivity, GainOfSteadyMotionIsTheorys, ()) {
   const double period = *rc::gen::element(1e-4, 1e-3, 4e-3);
   const double damping = within(0.1, 5.0, *rc::gen::inRange(0, 101));
@@ -66,7 +66,7 @@ TEST(Passivity, FrictionTakesItsForceTimesTheWay) {
   EXPECT_NEAR(without - with, 0.03 * 101 * 1e-4, 1e-9);
 }
 
-/// Diolaiti et al. 2006: friction of half a count's force ends the hunting between two counts.
+/// Diolaiti et al. 2006: friction of half a count's force stops the oscillation between two counts.
 TEST(Passivity, FrictionOfHalfACountsForceEndsLimitCycles) {
   const SampledWall wall{800.0, 1e-3, 2.3e-5};
   const double enough = 0.5 * wall.stiffness_n_per_m * wall.resolution_m;

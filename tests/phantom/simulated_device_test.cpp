@@ -47,7 +47,7 @@ TEST(SimulatedDevice, HandDrawsTheDeviceAlongThePath) {
   const Hand hand{"custom", 0.5, 6.0, 500.0, 0.0, 0.0};
   SimulatedDevice drawn = device({0.05, 0.2, 0.0, hand});
   for (int n = 1; n <= 4000; ++n) drawn.advance(NOWHERE, Vec3(0.02 * n * 1e-3, 0.0, 0.0));
-  // In steady motion it lags behind by b u / k, for the device's damper alone stands on the ground.
+  // In steady motion it lags by b u / k: the device's damper acts against the ground.
   EXPECT_NEAR(drawn.velocity().x(), 0.02, 1e-9);
   EXPECT_NEAR(drawn.position().x(), 0.08 - 0.2 * 0.02 / 500.0, 1e-9);
 }
@@ -68,7 +68,7 @@ TEST(SimulatedDevice, FrictionHoldsWhatIsTooWeak) {
 }
 
 TEST(SimulatedDevice, FrictionStopsASlidingDeviceWhereItShould) {
-  // Without damping it slides v^2 m / (2 f) far; with an instant of rest inside a period, not at its end.
+  // Without damping it slides v^2 m / (2 f) far, and stops inside a period, not at its end.
   const double speed = 0.123;
   SimulatedDevice sliding = device({0.04, 0.0, 0.05, std::nullopt});
   sliding.strike(Vec3(speed, 0.0, 0.0));
@@ -83,7 +83,7 @@ TEST(SimulatedDevice, FrictionStopsASlidingDeviceWhereItShould) {
 TEST(SimulatedDevice, StuckDeviceLetsGoWhenTheHandHasPulledEnough) {
   const Hand hand{"custom", 0.0, 0.0, 100.0, 0.0, 0.0};
   SimulatedDevice pulled = device({0.04, 0.0, 0.05, hand});
-  // The path leaves with 0.1 m/s: the spring's force reaches 0.05 N after 5 ms.
+  // The path moves at 0.1 m/s: the spring's force reaches 0.05 N after 5 ms.
   for (int n = 1; n <= 5; ++n) pulled.advance(NOWHERE, Vec3(0.1 * n * 1e-3, 0.0, 0.0));
   EXPECT_NEAR(pulled.position().x(), 0.0, 1e-15);
   pulled.advance(NOWHERE, Vec3(0.1 * 6e-3, 0.0, 0.0));
@@ -93,7 +93,7 @@ TEST(SimulatedDevice, StuckDeviceLetsGoWhenTheHandHasPulledEnough) {
 }
 
 TEST(SimulatedDevice, OscillatorLosesTwoFrictionDeflectionsEveryHalfTurn) {
-  // A classic: each half oscillation is shorter by 2 f / k than the one before.
+  // Known result: each half oscillation is shorter by 2 f / k than the one before.
   const Hand spring{"custom", 0.0, 0.0, 1000.0, 0.0, 0.0};
   SimulatedDevice swinging = device({0.04, 0.0, 0.05, spring}, NOWHERE, 1.7e-3);
   const double w = std::sqrt(1000.0 / 0.04);
@@ -101,12 +101,11 @@ TEST(SimulatedDevice, OscillatorLosesTwoFrictionDeflectionsEveryHalfTurn) {
   double first_peak = 0.0;
   double second_peak = 0.0;
   for (int n = 0; n * 1.7e-3 < 1.4 * std::numbers::pi / w; ++n) swinging.advance(NOWHERE, NOWHERE);
-  // From speed v at rest position, peak p: k p^2/2 + f p = m v^2/2.
+  // Started with speed v at the rest position; for its peak p, k p^2/2 + f p = m v^2/2.
   first_peak = (-0.05 + std::sqrt(0.05 * 0.05 + 1000.0 * 0.04 * 0.25)) / 1000.0;
   second_peak = first_peak - 2.0 * 0.05 / 1000.0;
   const EnergyAccount energy = swinging.energy();
-  // On its way back from the second peak it has slid the first peak, both ways between, and part of the
-  // third.
+  // On the way back it has slid to the first peak and a part of the way to the second.
   const double slid = energy.friction / 0.05;
   EXPECT_GT(slid, 2.0 * first_peak + second_peak - 1e-9 - first_peak);
   EXPECT_NEAR(0.5 * 0.04 * 0.25, energy.kinetic + energy.spring + energy.friction, 1e-15);
@@ -122,7 +121,7 @@ TEST(SimulatedDevice, SensesWholeCounts) {
   EXPECT_EQ(coarse.position().x(), 1e-4);
 }
 
-/// A random device on a random hand in a random force: what flowed is what is held and lost.
+/// For a random device, hand and force, energy in is energy held plus energy lost.
 RC_GTEST_PROP(SimulatedDevice, EnergyBalanceCloses, ()) {
   const auto number = [](double least, double most) {
     return least * std::pow(most / least, *rc::gen::inRange(0, 1000001) / 1e6);
@@ -147,14 +146,14 @@ RC_GTEST_PROP(SimulatedDevice, EnergyBalanceCloses, ()) {
     const double limit = std::max(1.0, force.norm());
     simulated.advance(force / limit * 3.0, rest + n * period * speed * std::sin(0.01 * n));
   }
-  // A device that friction all but holds moves no more energy than a position's last digit takes of the forces.
+  // If friction nearly holds the device, rounding of positions exceeds the energy that it moves.
   RC_PRE(simulated.energy().moved > 1e-4);
   RC_ASSERT(simulated.energy().balance_error() <= 1e-12);
   RC_ASSERT(simulated.energy().damped >= 0.0);
   RC_ASSERT(simulated.energy().friction >= 0.0);
 }
 
-/// An axis by Boost.odeint's Dormand-Prince, with Coulomb friction smoothed to f tanh(v / 0.1 mm/s), which knows no events.
+/// An axis by Boost.odeint's Dormand-Prince; friction smoothed to f tanh(v / 0.1 mm/s), no events.
 void advance_smoothed(const AxisModel& model, double period, AxisState& state) {
   namespace odeint = boost::numeric::odeint;
   using Vector = std::array<double, AXIS_STATE_SIZE>;

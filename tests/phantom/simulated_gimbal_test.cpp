@@ -40,7 +40,7 @@ TEST(GeneralisedTorque, DoesTheWorkOfTheTorqueAtAnyTurn) {
 }
 
 TEST(SimulatedGimbal, FreeTurnFollowsTheClosedForm) {
-  // As a mass on a damper, J w' = P - b w from rest, and beyond a whole turn.
+  // Like a mass on a damper: J w' = P - b w from rest, for more than a whole turn.
   SimulatedGimbal free(turning(1e-4, 2e-3), 1e-3, LEVEL, Vec3(0.0, 0.05, 0.0), 0.0);
   for (int n = 0; n < 500; ++n) free.advance(NOTHING, LEVEL);
   const double share = -std::expm1(-2e-3 * 0.5 / 1e-4);
@@ -57,14 +57,14 @@ TEST(SimulatedGimbal, HandTurnsTheDeviceAlongThePath) {
   SimulatedGimbal drawn(turning(1e-4, 2e-3, hand), 1e-3, tilted, NOTHING, 0.0);
   for (int n = 1; n <= 4000; ++n)
     drawn.advance(NOTHING, rotation_of(Vec3(0.0, 0.0, 0.8 * n * 1e-3)) * tilted);
-  // In steady motion it lags behind by b u / k, for the device's damper alone stands on the ground.
+  // In steady motion it lags by b u / k: the device's damper acts against the ground.
   EXPECT_NEAR(drawn.offset().z(), -2e-3 * 0.8 / 0.5, 1e-9);
   const Quaterniond behind = rotation_of(Vec3(0.0, 0.0, 3.2 - 2e-3 * 0.8 / 0.5)) * tilted;
   EXPECT_LT(drawn.orientation().angularDistance(behind), 1e-7);
 }
 
-/// A magnet b in a field m: its torque is the slope of -m (R b), so what the sampled torque adds to the energy vanishes with the period,
-/// through turns beyond a right angle about a changing axis.
+/// A magnet b in a field m has the potential -m (R b). The energy that the sampled torque adds
+/// vanishes with the period, through turns beyond a right angle about a changing axis.
 TEST(SimulatedGimbal, ConservativeTorqueConservesEnergyAtLargeTurns) {
   const Vec3 field(0.02, 0.0, 0.01);
   const Vec3 magnet(0.0, 0.6, 0.8);
@@ -87,7 +87,7 @@ TEST(SimulatedGimbal, ConservativeTorqueConservesEnergyAtLargeTurns) {
   EXPECT_LT(fine, 0.02 * coarse);
 }
 
-/// The wall of a torque -K angle, sampled and held: its swing grows above the boundary of the eigenvalue problem and shrinks below.
+/// A wall of torque -K angle: its swing grows above the eigenvalue boundary and decays below.
 TEST(SimulatedGimbal, RotationalWallTurnsUnstableAtTheExactBoundary) {
   struct Case {
     double inertia, damping, period;

@@ -17,7 +17,7 @@ SampledLoop loop(double mass, double damping, double period, std::int64_t delay)
   return {{mass, damping, 0.0, std::nullopt}, period, delay};
 }
 
-/// Published and twice derived: mass 0.04 kg, damping 0.8 N s/m, 1 kHz.
+/// As published, and derived in two ways: mass 0.04 kg, damping 0.8 N s/m, 1 kHz.
 TEST(StabilityBoundary, MatchesThePublishedTable) {
   const std::pair<std::int64_t, double> table[] = {{0, 1605.3511}, {1, 536.2786}, {2, 322.7439},
                                                    {5, 148.0801},  {10, 78.7445}, {50, 17.9961},
@@ -26,7 +26,7 @@ TEST(StabilityBoundary, MatchesThePublishedTable) {
     EXPECT_NEAR(critical_stiffness(loop(0.04, 0.8, 1e-3, delay)), expected, 5.1e-5) << delay;
 }
 
-/// Devices and rates from 250 Hz to 10 kHz, over more than the range of real ones.
+/// Devices and rates from 250 Hz to 10 kHz, beyond the range of real ones.
 struct AnyLoop {
   double mass = 0.0;
   double damping = 0.0;
@@ -49,7 +49,7 @@ RC_GTEST_PROP(StabilityBoundary, ClosedFormWithoutDelay, ()) {
   RC_ASSERT(std::abs(found / expected - 1.0) < 1e-7);
 }
 
-/// Damping that stops the device within a frame, b T / m above 4: it then shakes from frame to frame, an eigenvalue of -1.
+/// Damping that stops the device within a frame, b T / m > 4: it shakes at an eigenvalue of -1.
 RC_GTEST_PROP(StabilityBoundary, StrongDampingShakesAtHalfTheRate, ()) {
   const double damping = logarithmic(1.0, 20.0), period = 1.0 / logarithmic(250.0, 10000.0);
   const double mass = damping * period / logarithmic(4.5, 30.0);
@@ -78,7 +78,7 @@ TEST(StabilityBoundary, EveryKnownHandIsOnTheBoundary) {
   }
 }
 
-/// Values computed independently for a device of 72 g and 0.005 N s/m with three hands, to the printed digit.
+/// Independently computed values for a device of 72 g and 0.005 N s/m with three hands.
 TEST(StabilityBoundary, MatchesTheTableOfHands) {
   const auto with_hand = [](const char* name, std::int64_t delay) {
     return critical_stiffness({{0.072, 0.005, 0.0, hand_named(name)}, 1e-3, delay});
@@ -103,7 +103,7 @@ TEST(StabilityBoundary, SufficientBoundIsThePublishedOne) {
   EXPECT_NEAR(sufficient_stiffness(loop(0.04, 0.8, 1e-3, 50)), 15.84, 0.005);
 }
 
-/// A contact on a lever: with a mass that does not move it is the wall of a turn, K l^2.
+/// A contact on a lever: if the mass does not move, it is a rotational wall, K l^2.
 TEST(StabilityBoundary, LeverOfAHeavyDeviceIsARotationalWall) {
   SampledLoop sampled = loop(1e9, 1e5, 1e-3, 2);
   sampled.turn = SampledTurn{{1e-4, 2e-3, 0.0, std::nullopt}, 0.05};
@@ -122,7 +122,7 @@ TEST(StabilityBoundary, TurnLikeTheTranslationHalvesTheBoundary) {
   EXPECT_EQ(sufficient_stiffness(sampled), sufficient_stiffness(loop(0.04, 0.8, 1e-3, 1)));
 }
 
-/// With hands, so that no eigenvalue stays at 1 for want of a spring.
+/// Hands give every degree of freedom a spring; without one an eigenvalue stays at 1.
 RC_GTEST_PROP(StabilityBoundary, EigenvaluesOfATurningDeviceLeaveTheCircleThere, ()) {
   const AnyLoop any = any_loop();
   const Hand hand{"custom", 0.1, 1.0, 100.0, 0.0, 0.0};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// `certified` itself behind the interface for methods from outside: what goes through must be what came in, and what the way
-// costs can be told.
+// `certified` behind the interface for methods from outside. Its results must not change on the
+// way, and the cost of the interface can be measured.
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/plugin/lmdbench_method.h>
 

@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const std::string FOLDER = PLUGIN_FOLDER "/";
-/// Those that can be loaded, with the mark that each earns.
+/// Plugins that load, with the mark that each gets.
 const std::map<std::string, std::string> KINDS{{"crash", "frames_lost"},
                                                {"hang", "frames_lost"},
                                                {"leak", "frames_lost"},
@@ -35,7 +35,7 @@ const std::map<std::string, std::string> KINDS{{"crash", "frames_lost"},
                                                {"nan_force", "forces_wrong"},
                                                {"no_force", "forces_wrong"}};
 
-/// 40 frames of the shapes.
+/// 40 frames of the shapes experiment.
 const std::string RUN =
     "run " + SHAPES +
     "--json --set /frames=40 --set /driver/repetitions=2 --set /driver/block_frames=10 "
@@ -91,7 +91,7 @@ TEST_F(HostilePlugins, LoseNoResultAndMarkTheirFrames) {
     EXPECT_GT(all.at(name).at("local_update_median_s").get<double>(), 0.0)
         << name << " is timed all the same";
   }
-  // Three frames good, one lost, four times over; then it is not started again.
+  // Three good frames and a lost one, four times; after that it is not started again.
   EXPECT_EQ(marks("crash", "frames_lost"), 40 - 4 * 2);
   std::string notes;
   for (const auto& note : summary.at("warnings")) notes += note.get<std::string>() + "\n";
@@ -117,7 +117,7 @@ TEST_F(HostilePlugins, LoseNoResultAndMarkTheirFrames) {
       "");
 }
 
-/// A force of its own is rendered, recorded and held against the true one; a set that nobody promised is not judged.
+/// A plugin's own force is rendered, recorded and compared; a set without a promise is not judged.
 TEST_F(HostilePlugins, OwnForcesAreJudgedAsForces) {
   const auto methods = by_label(
       run("--plugin " + FOLDER + "pushes.so --plugin " + FOLDER + "no_force.so --set /record/torque=true",

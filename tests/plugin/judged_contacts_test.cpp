@@ -12,14 +12,14 @@
 namespace lmdbench::testing {
 namespace {
 
-/// Two unit cubes, A above B by 0.25 and moved by a third, so that a corner of A is over a face of B.
+/// Two unit cubes; A is 0.25 above B and moved by a third: a corner of A is over a face of B.
 class JudgedContacts : public ::testing::Test {
  protected:
   JudgedContacts()
       : scene_(make_scene(make_box(Vec3(1, 1, 1)), make_box(Vec3(1, 1, 1)), 0.5)),
         X_(moved(1.0 / 3, 0.25, 1.25)) {}
 
-  /// A contact of a point of a triangle of A with the point of a triangle of B under it.
+  /// A contact of a point of a triangle of A with the point below it on a triangle of B.
   lmdbench_contact corner_over_face() const {
     const TriangleMesh &a = scene_.moving->surface().mesh, &b = scene_.fixed[0]->surface().mesh;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(a.triangles.size()); ++t)

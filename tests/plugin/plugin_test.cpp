@@ -55,7 +55,7 @@ TEST(Plugin, IsDescribedAsItSays) {
   EXPECT_EQ(good.plugin, PLUGIN_FOLDER "/good.so");
 }
 
-/// In a process of its own and in this one a plugin gives the same contacts.
+/// A plugin gives the same contacts in a child process and in this one.
 TEST(Plugin, AnswersTheSameInBothPlaces) {
   const Scene scene = two_spheres();
   const auto child = only_method("good", PluginTrust::NONE).make(scene, nlohmann::json::object());
@@ -79,7 +79,7 @@ TEST(Plugin, AnswersTheSameInBothPlaces) {
   }
 }
 
-/// In the world, wherever the plugin saw it: near the origin, far away, and of two placed meshes together.
+/// The force is about the same point near the origin, far away, and with two meshes in the scene.
 TEST(Plugin, OwnForceIsAboutTheSamePointInEveryFrame) {
   const MethodDescription pushes = only_method("pushes", PluginTrust::TRUSTED);
   EXPECT_EQ(pushes.promise, Promise::FORCE_ONLY);
@@ -97,7 +97,7 @@ TEST(Plugin, OwnForceIsAboutTheSamePointInEveryFrame) {
   };
   const Vec3 point(0.5, -0.25, 1.0), far(1e6, 2e6, -3e6);
   const Pose pose = moved(0.4, 1.9, 0.3);
-  // 2 N along z at the other mesh's origin.
+  // The plugin renders 2 N along z at the other mesh's origin.
   const OwnWrench near = wrench(two_spheres(), pose, point);
   EXPECT_EQ(near.force, Vec3(0, 0, 2));
   EXPECT_LT((near.torque - (-point).cross(Vec3(0, 0, 2))).norm(), 1e-12);
@@ -161,7 +161,7 @@ TEST(Plugin, ForcesThatAreNoneAreZeroAndCounted) {
   }
 }
 
-/// What a search takes outside of the plugin is told apart, so that drivers take it off.
+/// Time that a search takes outside the plugin is counted separately, so that drivers subtract it.
 TEST(Plugin, TimesOfTheWayAreNotTheMethods) {
   const auto method = only_method("good", PluginTrust::NONE).make(two_spheres(), nlohmann::json::object());
   LmdSet lmds;
@@ -215,7 +215,7 @@ TEST(Plugin, ThatIsTrustedAndWritesPastItsEndIsNoticed) {
 }
 
 #ifdef HAS_CERTIFIED_PLUGIN
-/// What certified finds goes through the interface and comes out as it went in.
+/// Contacts of `certified` go through the interface unchanged.
 TEST(Plugin, CertifiedBehindTheInterfaceIsCertified) {
   const MethodDescription description = only_method("certified-plugin", PluginTrust::NONE);
   EXPECT_TRUE(description.frame_coherent);

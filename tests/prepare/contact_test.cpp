@@ -43,7 +43,7 @@ TEST(FramesInContact, NoPoseNoFrame) {
       frames_in_contact(testing::make_scene(make_sphere(0.5, 1), make_sphere(0.5, 1), 0.05), {}).empty());
 }
 
-/// A mesh that wanders in and out of the cutoff of two others, turning, with steps of very unlike lengths.
+/// A mesh that turns, in and out of the cutoff of two others, with steps of different lengths.
 Scene two_others() {
   Scene scene =
       testing::make_scene(scaled_to_diagonal(make_box({1, 2, 2}), 3.0), make_torus(1.0, 0.4, 24, 12), 0.05);
@@ -89,7 +89,7 @@ TEST(Clearance, IsTheExactDistanceHoweverFar) {
   EXPECT_EQ(clearance(scene, {}).touching, 0);
 }
 
-/// What is left out of the looks changes nothing: the least distance is the same bits as pose by pose, the count the same number.
+/// Leaving out poses must change nothing: the least distance has the same bits, the count is equal.
 TEST(Clearance, LeavesOutLooksButNoTouch) {
   const Scene scene = two_others();
   const std::vector<Pose> poses = wandering();

@@ -32,7 +32,7 @@ using Json = nlohmann::json;
 
 const std::string MESHES = LMDBENCH_SOURCE_DIR "/meshes";
 
-/// Makes experiments of meshes that it writes.
+/// Makes experiments of meshes that the test writes.
 class InitTest : public ::testing::Test {
  protected:
   std::string write(const std::string& name, const TriangleMesh& mesh) {
@@ -144,7 +144,7 @@ TEST_F(InitTest, MeshesThatAreInsideOutAreTurned) {
   for (const FrameRecord& frame : run.records.front().frames) found += frame.lmd_count;
   EXPECT_GT(found, 500);
 
-  // As it is, nothing is in contact with it, and the run says why.
+  // Without orientation no LMD exists, and the run says why.
   std::vector<Override> as_it_is = quick;
   as_it_is.emplace_back("/moving/orient=keep");
   const RunResult empty = run_experiment(load_experiment(experiment.experiment_file, as_it_is));
@@ -223,7 +223,7 @@ TEST_F(InitTest, TheHandPressesItWhereItRests) {
   EXPECT_TRUE(make(box, block).press.empty());
 }
 
-/// The seed that comes first shows one contact of these two, a later one several.
+/// The first seed shows one contact of these two meshes at a time, a later seed several.
 TEST_F(InitTest, ThePathShowsSeveralContactsWhereASeedDoes) {
   const std::string moving = write("moving.off", make_two_boxes({0.4, 0.4, 0.4}, 0.1));
   const std::string fixed = write("fixed.off", make_two_boxes({0.4, 0.4, 0.4}, 0.1));

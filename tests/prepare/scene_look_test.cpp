@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::ScratchDirectory;
 
-/// A cube of diagonal 0.1 m (side 57.7 mm) past another one, along the given poses.
+/// A cube of diagonal 0.1 m (side 57.7 mm) along the given poses, past another cube.
 SceneLook look(const std::string& poses, const std::vector<Override>& more = {}) {
   const ScratchDirectory scratch;
   std::vector<Override> overrides{"/path/file=" + scratch.write("p.tum", poses),
@@ -70,7 +70,7 @@ TEST(SceneLook, AMeshThatIsListedTwiceAtOnePlaceIsNoticed) {
                                 HasSubstr("first of 2"), HasSubstr("pushes twice"))));
   const std::string beside = cube + R"(, "pose": {"translation_m": [0.2, 0, 0]}})";
   EXPECT_THAT(warnings(look(GOOD, {"/fixed=[" + cube + "}, " + beside + "]"})), IsEmpty());
-  // A path that is made knows where they stand, and so does who looks for one mesh inside another.
+  // The check for a mesh inside another uses the poses of the fixed meshes.
   const std::string above = cube + R"(, "pose": {"translation_m": [0, 0, 0.06]}})";
   EXPECT_THAT(warnings(look(GOOD, {"/fixed=[" + beside + ", " + above + "]"})),
               ::testing::Contains(HasSubstr("encloses a vertex of fixed_1")));

@@ -17,7 +17,7 @@ MethodRecord labelled(const std::string& label, bool both_laws) {
   return record;
 }
 
-/// Two probed frames, in the second of which this many of five true LMDs are missed.
+/// Two probed frames; in the second the method misses so many of five true LMDs.
 std::vector<TruthComparison> probed(std::size_t missed) {
   std::vector<TruthComparison> rows(2);
   rows[1].same = {5, 5 - missed, 5 - missed, 5 - missed};

@@ -21,7 +21,7 @@ using ::testing::IsEmpty;
 
 constexpr double PROBE_CUTOFF = 0.05;
 
-/// Two spheres that approach along x; their poles face each other as vertices.
+/// Two spheres that approach along x, vertex to vertex.
 Scene facing_spheres() {
   return testing::make_scene(make_sphere(0.5, 3), make_sphere(0.5, 3), PROBE_CUTOFF);
 }
@@ -38,7 +38,7 @@ DriverInput approach(const std::vector<double>& gaps) {
 
 const ForceProfile PROFILE{ForceLaw::LINEAR, PROBE_CUTOFF, 0.0, 2.0, 4.0};
 
-/// A record whose frames hold exactly what the set would render.
+/// A record with the forces of the sets in every frame.
 MethodRecord record_of(const std::vector<LmdSet>& sets, const std::vector<Vec3>& forces) {
   MethodRecord record;
   for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -125,8 +125,7 @@ TEST(TruthProbe, StopsWhenAsked) {
 
 TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
   const Scene scene = facing_spheres();
-  const DriverInput input =
-      approach({0.04, 0.06, -0.1, 0.01});  // within, beyond the cutoff, in contact, within
+  const DriverInput input = approach({0.04, 0.06, -0.1, 0.01});  // within, beyond, contact, within
   const DrivenMethod improved{"improved", [scene] { return make_method("improved", scene); }, PROFILE};
   const auto checked = probe_fcl(scene, input, {improved}, {0, 1, 2}, 1e-6, {});
   const FclCheck& check = *checked;
@@ -143,7 +142,7 @@ TEST(FclProbe, AgreesOnSpheresAndComparesOnlyWhereItMeansSomething) {
   EXPECT_TRUE(std::isnan(check.frames[2].method_difference[0]));
 }
 
-/// A tolerance that no two programs meet: rounding alone is a disagreement, and lands in the list.
+/// With tolerance 0 rounding alone is a disagreement, and is listed.
 TEST(FclProbe, DisagreesBeyondTheTolerance) {
   const Scene scene = facing_spheres();
   DriverInput input = approach({0.04, 0.03, 0.02});
@@ -161,7 +160,7 @@ TEST(FclProbe, DisagreesBeyondTheTolerance) {
   for (const FclException& exception : check.exceptions) EXPECT_EQ(exception.who, "lmdbench");
 }
 
-/// Finds nothing, or a pair that is too far away.
+/// Has an empty set, or one pair that is too far away.
 class WrongMethod : public Method {
  public:
   explicit WrongMethod(double distance, Promise promise = Promise::APPROXIMATION) : distance_(distance) {
@@ -206,7 +205,7 @@ TEST(FclProbe, AFrameAtThePoseOfTheOneBeforeHasItsAnswers) {
 }
 
 TEST(TruthProbe, AFrameAtThePoseOfTheOneBeforeHasItsSet) {
-  const DriverInput input = approach({0.04, 0.04, 0.02, 0.02, 0.04});  // Of the one before: not of the first.
+  const DriverInput input = approach({0.04, 0.04, 0.02, 0.02, 0.04});  // frame 4 repeats 0, not 3
   const auto reused = probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1, 2, 3}, {});
   const auto fresh =
       probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1, 2, 3}, {}, nullptr, false);
@@ -238,7 +237,7 @@ TEST(FclProbe, ListsExceptionsWithTheirPoses) {
   EXPECT_NEAR(check.exceptions[1].fcl_distance, 0.04, 1e-9);
 }
 
-/// Whether a method that promises the complete set and has this nearest distance is an error in the first frame.
+/// Whether a method with this promise and nearest distance is an error in the first frame.
 bool is_error(const Scene& scene, const DriverInput& input, double distance,
               Promise promise = Promise::COMPLETE_SET) {
   const DrivenMethod method{"m", [=] { return std::make_unique<WrongMethod>(distance, promise); }, PROFILE};
@@ -258,13 +257,13 @@ TEST(FclProbe, AWrongNearestDistanceIsAnErrorOfWhoPromisesTheCompleteSet) {
     EXPECT_FALSE(is_error(scene, apart, none, promise));
   EXPECT_FALSE(is_error(scene, approach({0.06}), none)) << "beyond the cutoff";
 
-  // Where FCL sees contact and compares no distance.
+  // Gaps at which FCL sees a contact and compares no distance.
   for (const double gap : {-0.1, 0.0, 1e-16, 1e-12}) {
     EXPECT_TRUE(is_error(scene, approach({gap}), 0.0043)) << gap;
     EXPECT_TRUE(is_error(scene, approach({gap}), none)) << gap;
     EXPECT_FALSE(is_error(scene, approach({gap}), 0.0)) << gap;
   }
-  // Floor and wall as one LMD at their mean distance.
+  // The distance of floor and wall joined to one LMD, their mean.
   EXPECT_TRUE(is_error(scene, approach({1e-9}), 5.0005e-6));
 }
 
@@ -281,7 +280,7 @@ TEST(FclProbe, ANearestPairThatIsNoLmdOwesNone) {
   EXPECT_TRUE(is_error(inside, input, none)) << "triangles that share a point are a contact";
 }
 
-/// Boxes in turned frames, a face on a face, a gap of rounding and more: FCL, the exact search and the methods agree.
+/// Boxes in turned frames, face on face, gaps of rounding and more: FCL, truth and methods agree.
 TEST(FclProbe, WhoIsRightAtRestIsNoError) {
   const TriangleMesh box = make_box(Vec3(1.0, 0.6, 0.2));
   const Scene scene = testing::make_scene(box, box, PROBE_CUTOFF);

@@ -113,7 +113,7 @@ class AgainstTheProgram(Files):
             self.assertEqual(done.returncode, caught.exception.exit_code)
             said = re.sub(r"^\[?error\]?:? ", "", done.stderr.strip())
             self.assertIn("remedy", str(caught.exception))
-            if "gone" not in arguments[1]:  # the program takes "gone.off" for a path, too, but may be told a name
+            if "gone" not in arguments[1]:  # the program may also take a name for "gone.off"
                 self.assertIn(str(caught.exception), said)
         for method, options in (("certifed", {}), ("improved", {"visibilty": "off"}), ("improved", {"visibility": "maybe"})):
             with self.assertRaises(lmdbench.UsageError) as caught:
@@ -265,7 +265,7 @@ class Interpreter(unittest.TestCase):
             worker.join()
         done.set()
         counter.join()
-        self.assertGreater(during, 10)  # with the lock held it would be a few
+        self.assertGreater(during, 10)  # a few if the lock were held
         for sets in results:
             for mine, theirs in zip(sets, wanted):
                 self.assertEqual(mine["distance"].tolist(), theirs["distance"].tolist())

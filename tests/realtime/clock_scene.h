@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-/// Small scenes for runs on the clock. No test rests on a tick that is in time: machines that run tests are busy.
+/// Small scenes for runs on the clock. No test needs a tick in time: test machines may be busy.
 namespace lmdbench::testing {
 
-/// One LMD whose distance is the pose's x coordinate, in a method that does what a test asks of it first.
+/// A method with one LMD at the pose's x coordinate; it first runs the work that a test gives it.
 class ClockMethod : public Method {
  public:
   using Plant = std::function<void()>;
@@ -54,7 +54,7 @@ inline DrivenMethod clock_method(bool tracks, ClockMethod::Plant in_search = {})
           ForceProfile{ForceLaw::LINEAR, 1.0, 0.0, 1.0, 4.0}};
 }
 
-/// A path along x from 0.1 m, a millimetre a second.
+/// A path along x from 0.1 m at a millimetre a second.
 inline DriverInput straight_path(std::int64_t frames) {
   DriverInput input{.poses = {}, .device = VirtualPhantom(device_named("phantom-desktop")), .keep_lmds = {}};
   for (std::int64_t i = 0; i < frames; ++i) {
@@ -98,7 +98,7 @@ struct BlobRun {
   }
 };
 
-/// Frames by where they come from.
+/// Number of frames by source.
 struct FrameCounts {
   std::int64_t ticks = 0, skipped = 0, lost = 0;
 };

@@ -6,11 +6,10 @@
 
 namespace lmdbench::testing {
 
-/// Calls that were made inside servo ticks, in all threads, since the last `reset`.
+/// Calls inside servo ticks, in all threads, since the last `reset`.
 struct CountedCalls {
   std::int64_t allocations = 0;  ///< operator new
-  std::int64_t locks =
-      0;  ///< pthread_mutex_lock; not counted under the thread sanitizer, which needs it itself.
+  std::int64_t locks = 0;        ///< pthread_mutex_lock; 0 under the thread sanitizer
 };
 CountedCalls counted_calls();
 void reset_counted_calls();

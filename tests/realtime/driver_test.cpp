@@ -22,7 +22,7 @@ using testing::count_frames;
 using testing::quick;
 using testing::straight_path;
 
-/// The grid was kept: every tick at or after its instant, one a period at most, every period a tick or a skip.
+/// Checks the grid: no tick before its instant, at most one per period, and else a skip is counted.
 void expect_grid(const RealtimeRecord& clock, std::int64_t frames) {
   const TickTimes& times = clock.servo().times;
   ASSERT_EQ(times.size(), clock.tick_frame.size());
@@ -79,7 +79,7 @@ TEST(RealtimeDriver, FourRolesHandOverAndSayHowOldTheirSetsAre) {
     EXPECT_GT(role.use.processor_ns, 0) << role.name;
     EXPECT_GT(role.rate_hz(), 0.0) << role.name;
   }
-  // Every set is as old as the record says: its force is that of a pose so far back.
+  // Every set is as old as the record says: its force belongs to a pose that long ago.
   for (std::size_t i = 0; i < clock.tick_frame.size(); ++i) {
     EXPECT_GT(clock.servo().age[i], 0);
     EXPECT_GE(clock.search_age[i], clock.servo().age[i]) << "a set is tracked after it is searched";
@@ -101,7 +101,7 @@ TEST(RealtimeDriver, PredictionLooksAheadByTheAge) {
   settings.predict = true;
   const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(500), settings, {});
   const RealtimeRecord& clock = run.clocks.at(0);
-  // On a straight path at constant speed what is predicted is right, as far as ticks are in time.
+  // On a straight path at constant speed the prediction is right where ticks are in time.
   std::vector<double> errors;
   for (std::size_t i = 10; i < clock.tick_frame.size(); ++i) {
     const std::int64_t frame = clock.tick_frame[i];
@@ -151,7 +151,7 @@ TEST(RealtimeDriver, ADeviceMayCallAtARateOfItsOwn) {
   EXPECT_GT(slow.clocks[0].servo().turns, 10);
   const auto counts = count_frames(slow.clocks[0]);
   EXPECT_EQ(counts.ticks + counts.skipped, FRAMES);
-  // A call that comes late may fall into the frame of the next one.
+  // A late call may fall into the frame of the next one.
   EXPECT_LE(counts.ticks, slow.clocks[0].servo().turns);
   EXPECT_GT(counts.ticks, 10);
 
@@ -177,7 +177,7 @@ TEST(RealtimeDriver, AnErrorInARoleEndsTheRun) {
 }
 
 TEST(RealtimeDriver, RefusalsAreRecordedAndEndARunThatRequires) {
-  // Without the capabilities of root, whoever runs the test.
+  // Drops root's capabilities, whoever runs the test.
   const auto as_nobody = [](bool required) {
     if (::geteuid() == 0 && ::setuid(65534) != 0) std::exit(9);
     RealtimeSettings settings = quick();
@@ -195,7 +195,7 @@ TEST(RealtimeDriver, RefusalsAreRecordedAndEndARunThatRequires) {
     std::exit(0);
   };
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  // The servo's thread or the tracking's, whichever asks first.
+  // The thread of the servo or of the tracking, whichever asks first.
   EXPECT_EXIT(as_nobody(true), ::testing::ExitedWithCode(4), "SCHED_FIFO [78]0 was refused.*CAP_SYS_NICE");
   EXPECT_EXIT(as_nobody(false), ::testing::ExitedWithCode(0), "went on, refused some");
 }

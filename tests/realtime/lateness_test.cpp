@@ -46,7 +46,7 @@ TEST(Lateness, NinetyFiveOfAHundredIntervalsHoldTheTrueQuantile) {
 }
 
 TEST(Lateness, BurstsWidenTheInterval) {
-  // The same samples, the largest hundred scattered or all in one place: then nobody knows how often that happens.
+  // Equal samples, the largest scattered or all together: then their frequency is uncertain.
   std::vector<double> scattered(20000, 1.0), together(20000, 1.0);
   for (std::size_t i = 0; i < 400; ++i) {
     scattered[i * 50] = 10.0;

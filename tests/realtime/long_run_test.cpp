@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-/// Seconds of each run: for the thread sanitizer many more than for every day (ctest label "heavy").
+/// Seconds of each run; far more in the long runs under the thread sanitizer (ctest label "heavy").
 double seconds_asked() {
   const char* const text = std::getenv("LMDBENCH_REALTIME_SECONDS");
   return text == nullptr ? 1.0 : std::stod(text);

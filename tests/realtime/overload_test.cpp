@@ -23,7 +23,7 @@ std::int64_t longest(const std::vector<std::int64_t>& durations) {
   return *std::max_element(durations.begin(), durations.end());
 }
 
-/// Under whatever is planted: the frames are all there, and each period has its tick, or is counted.
+/// Under every planted fault all frames exist, and each period has a tick or is counted as missed.
 void expect_nothing_uncounted(const RealtimeRun& run, std::int64_t frames) {
   const RealtimeRecord& clock = run.clocks[0];
   const auto counts = count_frames(clock);
@@ -89,7 +89,7 @@ TEST(Overload, ABusyNeighbourOfTheSamePriorityCostsTicksThatAreCounted) {
   settings.choice.plant.neighbour_busy_s = 0.01;
   const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(FRAMES), settings, {});
   expect_nothing_uncounted(run, FRAMES);
-  // Of the same priority under SCHED_FIFO it is not interrupted; the normal policy shares the core.
+  // SCHED_FIFO does not interrupt a neighbour of equal priority; the normal policy shares the core.
   const auto& grants = run.clocks[0].grants;
   const bool all =
       std::all_of(grants.begin(), grants.end(), [](const Grant& grant) { return grant.granted; });

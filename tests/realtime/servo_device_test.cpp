@@ -27,7 +27,7 @@ RenderedForce push_of(double newtons) {
   return rendered;
 }
 
-/// The same device in lockstep and on a clock whose every tick is in time and done at once.
+/// The same device in lockstep, and on a clock whose ticks are all in time and take no time.
 TEST(SimulatedServoDevice, InTimeItIsTheLockstepsDevice) {
   LoopChoice loop = free_mass(0.1, 2);
   loop.dynamics.damping_n_s_per_m = 3.0;
@@ -48,7 +48,7 @@ TEST(SimulatedServoDevice, InTimeItIsTheLockstepsDevice) {
 }
 
 TEST(SimulatedServoDevice, AForceThatComesLateActsLate) {
-  // x = F/m t^2 / 2, from the instant on at which the force is there.
+  // x = F/m t^2 / 2 from the instant when the force is first there.
   const std::vector<Pose> path(20);
   for (const std::int64_t late : {std::int64_t{0}, 3 * TICK_NS / 10}) {
     SimulatedServoDevice device(free_mass(0.1), path, 0, TICK_NS, 10, Vec3::Zero());

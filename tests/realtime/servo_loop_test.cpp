@@ -13,7 +13,7 @@
 #include <mutex>
 #include <vector>
 
-/// Nothing is allocated, locked or faulted in inside the servo loop, and a test that plants it shows that these tests would see it.
+/// The servo loop never allocates, locks or faults; the tests notice such calls when planted.
 namespace lmdbench {
 namespace {
 
@@ -37,7 +37,7 @@ void expect_clean(const RealtimeRecord& clock) {
   EXPECT_EQ(counted_calls().allocations, 0);
   EXPECT_EQ(counted_calls().locks, 0);
 #if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-  // What the system refuses to lock it may page.
+  // Memory that the system refuses to lock may be paged.
   if (memory_is_locked(clock)) {
     EXPECT_EQ(clock.servo().use.minor_faults + clock.servo().use.major_faults, 0);
   }
@@ -71,7 +71,7 @@ TEST(ServoLoop, IsCleanWithTheSimulatedDeviceInIt) {
 
 TEST(ServoLoop, APlantedAllocationIsSeen) {
   const auto allocates = [] {
-    // Through a volatile pointer, or the compiler leaves both out.
+    // Through a volatile pointer; otherwise the compiler removes both calls.
     int* volatile memory = new int(1);
     delete memory;
   };
@@ -87,7 +87,7 @@ TEST(ServoLoop, APlantedLockIsSeen) {
 }
 
 TEST(ServoLoop, APlantedPageFaultIsSeen) {
-  // A page that is given back in every tick is new in every tick.
+  // A page that is unmapped in every tick faults again in every tick.
   const auto faults = [] {
     constexpr std::size_t PAGE = 4096;
     void* const page = ::mmap(nullptr, PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -96,7 +96,7 @@ TEST(ServoLoop, APlantedPageFaultIsSeen) {
     ::munmap(page, PAGE);
   };
   RealtimeSettings settings = quick();
-  settings.choice.lock_memory = false;  // which would bring the page at once
+  settings.choice.lock_memory = false;  // locked memory would have the page at once
   const RealtimeRecord clock = run_counted(clock_method(false, faults), straight_path(200), settings);
   EXPECT_GE(clock.servo().use.minor_faults, clock.servo().turns);
 }

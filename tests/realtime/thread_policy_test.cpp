@@ -33,7 +33,7 @@ TEST(ThreadPolicy, ACoreIsGrantedAndKept) {
 
 TEST(ThreadPolicy, WhatIsRefusedSaysWhy) {
   std::thread([] {
-    // No machine has this core; no kernel this priority.
+    // No machine has this core, and no kernel this priority.
     const std::vector<Grant> grants = apply({1000, 120}, "tracking");
     ASSERT_EQ(grants.size(), 2u);
     for (const Grant& grant : grants) {

@@ -91,7 +91,7 @@ class ExportTest(Scratch):
                 np.testing.assert_array_equal(grid.cell_data["distance [m]"], h5["methods/improved/lmds/distance"][rows])
                 np.testing.assert_array_equal(grid.cell_data["feature of moving (0 vertex, 1 edge, 2 face)"],
                                               h5["methods/improved/lmds/feature_moving_kind"][rows])
-            # The mesh stands where the path puts it: its pose from frame to frame is the path's.
+            # In every frame the exported mesh has the pose of the path.
             first, turn = (rotation(*h5["path/orientation"][frame]) for frame in (0, stride))
             own_frame = (moving[0][1].points - h5["path/position"][0]) @ first
             np.testing.assert_allclose(moving[1][1].points, own_frame @ turn.T + h5["path/position"][stride], atol=1e-7)
@@ -150,7 +150,7 @@ class ExportTest(Scratch):
         result = moved / "out" / "own.h5"
         done = self.export_from(elsewhere, result)
         self.assertEqual(done.returncode, 0, done.stderr)
-        # Another mesh of that name where the program is now is passed over; beside the result file is a place, too.
+        # A mesh of that name in the working folder is ignored; the result's own folder counts.
         self.write("elsewhere/parts/part.off", "OFF\n")
         self.assertEqual(self.export_from(elsewhere, result).returncode, 0)
         part = moved / "parts" / "part.off"
@@ -169,7 +169,7 @@ class ExportTest(Scratch):
         self.assertEqual(done.returncode, 3, done.stderr)
         for text in ("part.off: ", f"seen from /, {result.parent}, {project}", "remedy: put it beside the result file"):
             self.assertIn(text, done.stderr)
-        # A page is made without it, and says so.
+        # The page is made without the mesh, and says so.
         done = call(PROGRAM, "report", result, "--out", self.path("page"), cwd="/", env={**os.environ, "LMDBENCH_SCRIPTS": str(SCRIPTS)})
         self.assertEqual(done.returncode, 0, done.stderr)
         (line,) = [line for line in done.stderr.splitlines() if "no 3D view" in line]

@@ -25,7 +25,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 
 from cases import ROOT, SharedScratch  # noqa: E402  (the figures' tests must be found first)
 
-# 3D graphics in software, and none of the requests that a browser makes of its own.
+# 3D graphics in software, and no requests that a browser makes by itself.
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--ignore-gpu-blocklist", "--force-prefers-reduced-motion")

@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-/// `/force/aggregation` of an experiment: what a run, its result, plan and probes make of it.
+/// `/force/aggregation` of an experiment: its effect on a run, its result, plan and probes.
 namespace lmdbench {
 namespace {
 
@@ -38,7 +38,7 @@ const std::string BOTH =
 
 const std::string NO_TRUTH = "/probes/truth/stride_frames=0";
 
-/// The shapes where several LMDs share a component, with what one may add.
+/// The shapes in a pose where several LMDs share a component, with further overrides.
 Experiment shapes_in_contact(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(), {"/frames=280", "/driver/repetitions=1", "/probes/fcl/stride_frames=0",
                                        "/probes/truth/stride_frames=60", BOTH});
@@ -56,7 +56,7 @@ TEST(AggregationInRuns, IsOfMethodsThatFindSaddles) {
   const RunResult sum = run_experiment(shapes_in_contact({"/frames=360"}));
   const double one = sum.prepared.profiles[0].force.maximum_force;
   for (const Aggregation& law : aggregations()) {
-    // layered takes long; it has a test of its own profile below.
+    // layered takes long; a test below has a profile for it.
     if (law.needs == AggregationNeeds::MINIMA || law.needs == AggregationNeeds::SURFACE) continue;
     const std::string name(law.name);
     const RunResult run = run_experiment(shapes_in_contact({"/force/aggregation=" + name, "/frames=360"}));
@@ -64,7 +64,7 @@ TEST(AggregationInRuns, IsOfMethodsThatFindSaddles) {
     EXPECT_EQ(run.records[0].result_hash, sum.records[0].result_hash) << "improved has no saddles";
     EXPECT_THAT(run.warnings, Contains(HasSubstr("method improved finds no saddles"))) << name;
     EXPECT_THAT(run.warnings, Not(Contains(HasSubstr("without an index")))) << name;
-    // The truth is what was asked for.
+    // The probed truth uses the same aggregation.
     ASSERT_FALSE(run.comparisons(1).empty());
     double most = 0.0;
     for (std::size_t k = 0; k < run.comparisons(1).size(); ++k) {
@@ -159,7 +159,7 @@ TEST(AggregationInRuns, AClosedLoopFeelsIt) {
 }
 
 TEST(AggregationInRuns, MapsTakeTheStiffnessUnderIt) {
-  // At a pose where the sum is stiffer than the shared force: F_max is what gives the stiffness asked for there.
+  // The sum is stiffer than the shared force here; F_max follows from the stiffness asked for.
   const RunResult sum = run_experiment(shapes_in_contact({ALONE, NO_TRUTH})),
                   shared = run_experiment(shapes_in_contact({ALONE, NO_TRUTH, "/force/aggregation=shared"}));
   std::size_t frame = 0;
@@ -188,7 +188,7 @@ TEST(AggregationInRuns, MapsTakeTheStiffnessUnderIt) {
     });
     return found;
   };
-  // The load is carried either way; what is wrong by the ratio of stiffness would not carry it.
+  // Both forces carry the load; one that is wrong by the ratio of stiffness would not.
   EXPECT_NEAR(largest_stiffness("shared"), LOAD_N, 0.5 * LOAD_N);
 }
 

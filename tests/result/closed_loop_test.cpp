@@ -63,7 +63,7 @@ TEST(DevicePoses, OrientationIsThePathsAndThePositionInWholeCounts) {
   EXPECT_NEAR(poses.pose().translation.x(), 2e-6, 1e-18) << "2.4 micrometres";
 }
 
-/// Six actuated degrees of freedom: the tip, 50 mm beside the point held, meets the slab and turns the lever.
+/// Six actuated degrees of freedom: the tip, 50 mm beside the held point, meets the slab and turns.
 Experiment lever(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(), {"/frames=600", "/loop/push_n=[0, 0, -2]",
                                        R"(/loop/rotation/hand={"damping_n_m_s": 0.01, "stiffness_n_m": 1})"});
@@ -190,7 +190,7 @@ TEST(ClosedLoop, RecordedPathReplaysTheForces) {
   EXPECT_THROW(record_path(wall({"/loop/kind=open"})), UsageError);
 }
 
-/// The hand means a path in contact; the device, which nothing presses, is pushed out of it.
+/// The hand follows a path in contact, but the device, which nothing presses, is pushed out.
 TEST(ClosedLoop, SummaryTellsThePathsContactAndTheDevices) {
   const ScratchDirectory scratch;
   const Experiment released = wall({"/loop/push_n=[0, 0, 0]"});

@@ -43,7 +43,7 @@ constexpr const char* BEND =
     R"({"generator":"bend","amplitude":0.6,"share":0.3,"direction":[0.3,-1,0.2],"period_s":0.11})";
 constexpr const char* BREATHE = R"({"generator":"breathe","amplitude":0.012,"period_s":0.16})";
 
-/// A small blob that bends, along a torus that breathes and stands turned.
+/// A small blob that bends along a turned torus that breathes.
 Experiment small_run(std::vector<Override> overrides = {}, const std::string& moving = BEND,
                      const std::string& fixed = BREATHE) {
   const auto key = [](const std::string& text) { return text.empty() ? "" : R"(,"deformation":)" + text; };
@@ -62,7 +62,7 @@ RunResult run_to(const Experiment& experiment, const std::filesystem::path& file
   return run_experiment_to_file(experiment, file, {"lmdbench", "run"});
 }
 
-/// The scene of a frame with meshes that are built from nothing.
+/// The scene of a frame, with meshes built from scratch.
 Scene fresh_scene(const PreparedRun& run, std::int64_t frame) {
   Scene scene = run.scene();
   for (const DeformingBody& body : run.input.motion.deformation->bodies()) {
@@ -172,7 +172,7 @@ TEST(Deforming, ContactOfFramesThatAreNotLookedAtIsKnown) {
   EXPECT_GT(std::count(known.begin(), known.end(), false), 20);
   DeformingDistance distance(run.scene(), run.input.motion);
   for (std::int64_t frame = 0; frame < 300; frame += 3) {
-    // The pose stays: only the deformation brings the meshes nearer.
+    // The pose is constant; only the deformation brings the meshes nearer.
     const Pose& pose = run.input.poses[static_cast<std::size_t>(frame / 60)];
     const DeformingDistance::Interval interval = distance.known(frame, pose);
     const double exact = distance.look(frame, pose);
@@ -244,7 +244,7 @@ TEST(Deforming, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"speed":2})"), HasSubstr("speed"));
   EXPECT_THAT(message_of<UsageError>([] { prepare(small_run({}, "")); }),
               AllOf(HasSubstr("/fixed/0/deformation"), HasSubstr("at rest")));
-  // All vertices in one place after a quarter of the period.
+  // After a quarter of the period all vertices are in one place.
   EXPECT_THAT(
       message_of<InputError>([] {
         prepare(small_run({}, R"({"generator":"breathe","amplitude":-1,"period_s":0.04})"), {},
@@ -265,7 +265,7 @@ TEST(Deforming, TwoMeshesOfOneFileAreOneBodyOnlyWhereBothAreRigid) {
   EXPECT_EQ(body_count(R"(,"deformation":)" + std::string(BREATHE)), 2);
 }
 
-/// A tetrahedron, twice as large in the second shape and with its tip through the base in the third.
+/// A tetrahedron; in shape 2 twice as large, in shape 3 with its tip through the base.
 struct Tetrahedra {
   ScratchDirectory scratch;
   TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},

@@ -11,7 +11,7 @@
 
 namespace lmdbench::testing {
 
-/// Bytes of every dataset that must not depend on the machine's speed.
+/// Bytes of every dataset that must not depend on the speed of the machine.
 inline std::map<std::string, std::vector<char>> deterministic_datasets(const std::filesystem::path& file) {
   struct Visit {
     std::map<std::string, std::vector<char>> datasets;
@@ -27,7 +27,7 @@ inline std::map<std::string, std::vector<char>> deterministic_datasets(const std
         const hid_t dataset = H5Dopen2(object, name, H5P_DEFAULT);
         const hid_t type = H5Dget_type(dataset);
         std::vector<char> bytes;
-        if (H5Tis_variable_str(type) <= 0) {  // texts are compared by their own test
+        if (H5Tis_variable_str(type) <= 0) {  // other tests compare texts
           const hid_t space = H5Dget_space(dataset);
           bytes.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type));
           H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());

@@ -38,7 +38,7 @@ Experiment shapes_with(const std::string& instances, std::vector<Override> overr
   return load_experiment(SHAPES_FILE, overrides);
 }
 
-/// The plain torus, one just where it is, and two beside it.
+/// The plain torus, another one at the same place, and two beside it.
 std::string list_of_four(const ScratchDirectory& scratch) {
   return R"({"rule":"list","file":")" +
          scratch.write("list.txt",
@@ -74,13 +74,13 @@ TEST(Instances, ARunAmongThemFindsWhatTheSceneWithoutThemHas) {
   const auto touched = result.integers("/methods/certified/counters/pairs_touched");
   const auto searched = result.integers("/methods/certified/counters/pairs_searched");
   ASSERT_EQ(touched.size(), 320u);
-  EXPECT_EQ(searched.back(), 2);  // in contact with both that coincide
+  EXPECT_EQ(searched.back(), 2);  // in contact with both toruses there
   for (std::size_t i = 0; i < touched.size(); ++i) EXPECT_GE(touched[i], searched[i]);
   EXPECT_FALSE(plain.has("/methods/certified/counters/pairs_touched"));
   EXPECT_EQ(run.plan.scene->meshes.at(1).instances, 4);
 }
 
-/// Three entries of one mesh: where the plain torus is, one far away, one turned beside it.
+/// Three entries of one mesh: the plain torus, one far away, one turned beside it.
 Experiment three_entries(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(), {"/frames=320", "/driver/repetitions=1", "/record/lmds=true",
                                        R"(/methods=[{"name":"improved"},{"name":"certified"}])",
@@ -106,7 +106,7 @@ TEST(Instances, EntriesOfOneMeshShareItAndFindWhatInstancesFind) {
       scratch.write("list.txt", "0 0 0 0 0 0 1\n0.16 0 0 0 0 0 1\n0 0 0.05 0.6 0 0 0.8\n");
   run_experiment_to_file(shapes_with(R"({"rule":"list","file":")" + list + "\"}"), scratch / "instances.h5",
                          {"lmdbench", "run"});
-  // What reads vertices in the world frame has them there.
+  // Outputs that need vertices in the world frame get them there.
   run_experiment_to_file(three_entries({"/record/polylines/stride_frames=40"}), scratch / "world.h5",
                          {"lmdbench", "run"});
   const OpenResult entries(scratch / "entries.h5"), instances(scratch / "instances.h5"),
@@ -119,7 +119,7 @@ TEST(Instances, EntriesOfOneMeshShareItAndFindWhatInstancesFind) {
       EXPECT_TRUE(same->has("/methods/certified/counters/pairs_touched"));
     }
   }
-  // In another frame roundings differ, which an approximation may follow.
+  // In another frame roundings differ, which may change the set of an approximation.
   const auto in_world = world.doubles("/methods/certified/lmds/distance"),
              in_mesh = entries.doubles("/methods/certified/lmds/distance");
   ASSERT_EQ(in_world.size(), in_mesh.size());

@@ -50,7 +50,7 @@ constexpr const char* CUBE =
     R"({"mesh":"cube","diagonal_m":0.04,"pose":{"translation_m":[-0.027,-0.027,0.0345]},)"
     R"("path":{"period_s":0.05}})";
 
-/// On top of the other one.
+/// Entry of a second cube on top of the first one.
 constexpr const char* SECOND_CUBE =
     R"({"mesh":"cube","diagonal_m":0.04,"pose":{"translation_m":[-0.027,-0.027,0.063]},)"
     R"("path":{"period_s":0.07,"seed":2}})";
@@ -89,7 +89,7 @@ double largest_of(const std::vector<double>& values) {
   return most;
 }
 
-/// Relative poses round otherwise than poses in the world.
+/// Relative poses have other rounding errors than poses in the world.
 void expect_same_but_rounding(const std::vector<double>& a, const std::vector<double>& b,
                               const std::string& what) {
   ASSERT_EQ(a.size(), b.size()) << what;
@@ -102,7 +102,7 @@ TEST(Movers, OneOfThemFeelsWhatTheMovingMeshOfTheSameSceneFeels) {
   const std::string methods = R"([{"name":"original"},{"name":"improved"},{"name":"certified"},)"
                               R"({"name":"nearest"}])";
   const std::string in_metres = R"(/force={"cutoff_m":0.02,"maximum_force_n":3})";
-  // The moving mesh is a speck, out of reach of anything.
+  // The moving mesh is very small and far from everything.
   const std::string far = scratch.write("far.tum", "0 5 0 0 0 0 0 1\n1 5 0 0 0 0 0 1\n");
   run_movers(
       movers_scene({std::string(R"({"mesh":"small-blob","diagonal_m":0.1,"path":)") + SHAPES_PATH + "}"},
@@ -153,7 +153,7 @@ TEST(Movers, AllPairsAgreeWithTruthAndWithFcl) {
   EXPECT_GT(largest_of(file.doubles("/methods/improved/truth/force_error")), 0.0);
   EXPECT_GT(file.doubles("/methods/improved/summary/recall").front(), 0.3);
 
-  // Every mover feels something, of what stands and of others.
+  // Every mover gets forces, from standing objects and from movers.
   const std::vector<double> forces = file.doubles("/methods/certified/movers/force");
   for (std::size_t mover = 1; mover < 8; ++mover)
     EXPECT_GT(largest_of(mover_column(forces, 8, mover, 3)), 0.0) << mover;
@@ -163,7 +163,7 @@ TEST(Movers, AllPairsAgreeWithTruthAndWithFcl) {
   std::size_t among_movers = 0;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     EXPECT_LT(moving[i], 8);
-    EXPECT_LE(other[i], 8);  // one that stands, then the movers
+    EXPECT_LE(other[i], 8);  // one standing object, then the movers
     if (other[i] < 1) continue;
     ++among_movers;
     EXPECT_LT(moving[i], other[i] - 1);
@@ -175,7 +175,7 @@ TEST(Movers, AllPairsAgreeWithTruthAndWithFcl) {
   ASSERT_TRUE(fcl);
   EXPECT_GE(fcl->frames.size(), 6u);
   for (const FclFrame& frame : fcl->frames) EXPECT_TRUE(frame.agrees) << frame.frame;
-  // Contact is that of any pair.
+  // A frame is in contact when any pair is.
   const auto count = file.integers("/methods/certified/lmd_count");
   const auto contact = file.bytes("/scene/in_contact");
   for (std::size_t frame = 0; frame < contact.size(); ++frame)
@@ -189,7 +189,7 @@ TEST(Movers, TheirOrderInTheFileIsOnlyTheirNumbering) {
   run_movers(movers_scene({BLOBS, BALL, CUBE, SECOND_CUBE}), scratch / "abc.h5");
   run_movers(movers_scene({SECOND_CUBE, CUBE, BLOBS, BALL}), scratch / "cab.h5");
   const OpenResult abc(scratch / "abc.h5"), cab(scratch / "cab.h5");
-  // Of the second file, where the movers of the first are.
+  // For each object of the first file, its place in the second file.
   const std::vector<std::size_t> place{0, 3, 4, 5, 6, 7, 8, 2, 1};
   for (const std::string label : {"improved", "certified"})
     for (const auto& [name, width] :
@@ -205,7 +205,7 @@ TEST(Movers, TheirOrderInTheFileIsOnlyTheirNumbering) {
         EXPECT_EQ(a, b) << path << " of mover " << mover;
       }
     }
-  // Two of one mesh change their places in the file, and are in contact.
+  // Two movers of one mesh change places in the file, and are in contact.
   const auto moving = abc.integers("/methods/certified/lmds/moving_body"),
              other = abc.integers("/methods/certified/lmds/fixed_body");
   std::size_t between = 0;
@@ -222,7 +222,7 @@ TEST(Movers, OfAPairEachPushesTheOtherAsItIsPushed) {
   const ScratchDirectory scratch;
   const std::string beside = R"({"mesh":"cube","diagonal_m":0.05,"pose":{"translation_m":[1.0,0.002,0.001]},)"
                              R"("path":{"way_diagonals":0.05,"turn_rad":0.2,"period_s":0.05}})";
-  // Far from the torus: the two have nothing but each other.
+  // Far from the torus: the two only touch each other.
   const std::string path = scratch.write("path.tum", "0 1.046 0 0 0 0 0 1\n1 1.046 0 0 0 0 0 1\n");
   run_movers(movers_scene({beside}, {"/path/file=" + path, "/device=ideal"}), scratch / "two.h5");
   const OpenResult file(scratch / "two.h5");

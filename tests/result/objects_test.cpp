@@ -39,7 +39,7 @@ const char* const SWAYING_BALLS =
 const char* const STANDING =
     R"({"mesh":"ball","diagonal_m":0.02,"instances":{"rule":"grid","counts":[2,2,1],"spacing_diagonals":4}})";
 
-/// The same scene under `moving`, `fixed` and `movers`, and under `objects`, with what moves listed before what stands.
+/// The same scene under `moving`, `fixed`, `movers`, and under `objects`, moving ones first.
 Experiment scene(bool as_objects, bool deforms) {
   const std::string file(SHAPES_FILE);
   std::ifstream text(file);
@@ -94,7 +94,7 @@ TEST(Objects, TheResultHasATableOfThem) {
   EXPECT_THAT(result.texts("/scene/objects/motion"), ElementsAre("held", "sways", "stands", "stands"));
   EXPECT_THAT(result.integers("/scene/objects/first"), ElementsAre(0, 1, 0, 1));
   EXPECT_THAT(result.integers("/scene/objects/instances"), ElementsAre(1, 2, 1, 4));
-  // Read back, the list is the scene that was run.
+  // The objects read from the result are the scene of the run.
   const ResultScene again = scene_of_result(result);
   EXPECT_EQ(again.rest.mover_count(), 3u);
   EXPECT_EQ(again.rest.fixed.size(), 5u);

@@ -31,7 +31,7 @@ using testing::WALL_FILE;
 const std::string HARD = R"({"name": "hard", "cutoff_m": 0.002, "maximum_force_n": 3})";
 const std::string SOFT = R"({"name": "soft", "cutoff_m": 0.008, "maximum_force_n": 2, "clip": "maximum"})";
 
-/// The approach and first contact, improved alone.
+/// The approach and first contact, with `improved` alone.
 Experiment shapes_under(const std::string& force, std::vector<Override> more = {}) {
   more.insert(more.begin(),
               {"/frames=240", "/driver/repetitions=1", "/driver/search_every_frames=10",
@@ -115,7 +115,7 @@ TEST(Profiles, TruthContactAndCrosscheckAreEachProfilesOwn) {
   double sum = 0.0, largest = 0.0;
   std::size_t frames = 0;
   for (std::size_t i = 0; i < together.records[0].frames.size(); ++i) {
-    if (!together.track_of(1).in_contact[i]) continue;  // the farther cutoff holds the nearer one's frames
+    if (!together.track_of(1).in_contact[i]) continue;  // the farther cutoff includes it
     const double length = (together.records[1].frames[i].force - together.records[0].frames[i].force).norm();
     sum += length * length;
     largest = std::max(largest, length);
@@ -181,7 +181,7 @@ TEST(Rendering, NumbersAreOfTheFramesInContact) {
   MethodRecord record = record_of_a_second();
   std::vector<bool> in_contact(1000, true);
   for (std::size_t i = 0; i < 200; ++i) in_contact[i] = false;
-  record.frames[100].force.x() = 50.0;  // out of contact: of no account
+  record.frames[100].force.x() = 50.0;  // out of contact: ignored
   MethodSummary summary;
   summarise_rendering(summary, record, {in_contact, 1000.0, 1.0});
   EXPECT_EQ(summary.rendered_force_median_n, 1.0);

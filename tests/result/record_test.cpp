@@ -18,7 +18,7 @@ using testing::deterministic_datasets;
 using testing::OpenResult;
 using testing::ScratchDirectory;
 
-/// The shapes experiment's start, with all that can be recorded.
+/// The start of the shapes experiment, with all records on.
 void run_shapes(const std::filesystem::path& file, std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(),
                    {"/frames=120", "/driver/repetitions=2", "/record/lmds=true", "/record/torque=true"});
@@ -26,7 +26,7 @@ void run_shapes(const std::filesystem::path& file, std::vector<Override> overrid
                          {"lmdbench", "run"});
 }
 
-/// Each switch of /record leaves its datasets out and no other, and what is left is the same bits.
+/// Each switch of /record removes its own datasets only; the others keep their bits.
 TEST(Record, SaysWhatIsKept) {
   const ScratchDirectory scratch;
   run_shapes(scratch / "all.h5");

@@ -30,7 +30,7 @@ using testing::ScratchDirectory;
 
 constexpr std::int64_t FRAMES = 320;
 
-/// Small blocks, so that the run can be stopped in many places.
+/// Small blocks: the run can stop in many places.
 Experiment open_loop(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(),
                    {"/frames=320", "/driver/repetitions=3", "/driver/block_frames=7", "/record/lmds=true"});
@@ -48,7 +48,7 @@ RunResult run(const Experiment& experiment, const std::filesystem::path& file,
   return run_experiment_to_file(experiment, file, {"lmdbench", "run"}, {}, leftover);
 }
 
-/// Runs until so many frames are measured; returns how many were when it stopped.
+/// Runs until so many frames are measured; returns how many were measured when it stopped.
 std::int64_t run_until(const Experiment& experiment, const std::filesystem::path& file, std::int64_t frames,
                        Leftover leftover = Leftover::REFUSE) {
   std::int64_t measured = 0;
@@ -112,7 +112,7 @@ TEST_P(ResumeAnywhere, GivesTheBitsOfAnUninterruptedRunAndKeepsKnownTimes) {
     const std::filesystem::path file = scratch / (name + ".h5");
     std::int64_t measured = run_until(experiment, file, GetParam());
     std::filesystem::copy_file(file.string() + ".part", scratch / (name + "-kept.h5"));
-    // Interrupted once more, in the replay or behind it.
+    // Another interruption, during the replay or after it.
     measured = std::max(measured, run_until(experiment, file, GetParam() + 100, Leftover::RESUME));
     const RunResult result = run(experiment, file, Leftover::RESUME);
     EXPECT_EQ(result.resumed_frames, measured) << name;
@@ -137,7 +137,7 @@ TEST_P(ResumeAnywhere, GivesTheBitsOfAnUninterruptedRunAndKeepsKnownTimes) {
   }
 }
 
-// The first frame, frames of the first repetition, its end, and frames and the end of later ones; two methods.
+// The first frame; frames and the end of the first and of later repetitions; two methods.
 INSTANTIATE_TEST_SUITE_P(Resume, ResumeAnywhere,
                          ::testing::Values(1, 7, 300, 2 * FRAMES, 2 * FRAMES + 1, 1000, 4 * FRAMES,
                                            6 * FRAMES - 120));

@@ -36,7 +36,7 @@ using testing::OpenResult;
 using testing::ScratchDirectory;
 using testing::SHAPES_FILE;
 
-/// The shapes experiment, cut to its approach and first contact so that the tests stay quick.
+/// The shapes experiment up to its first contact, so that the tests stay quick.
 Experiment short_shapes(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(),
                    {"/frames=320", "/driver/repetitions=2", "/record/lmds=true", "/record/torque=true"});
@@ -86,8 +86,8 @@ TEST(Run, AnotherSceneLeavesOtherBits) {
   EXPECT_FALSE(deterministic_datasets(scratch / "a.h5") == deterministic_datasets(scratch / "b.h5"));
 }
 
-/// What a method does not count or have is not in its group, and its attributes say what kind of method it
-/// is.
+/// A method's group has only the datasets and counters of its description, and attributes that say
+/// its kind.
 TEST(Run, GroupsHoldWhatTheirMethodsDescribe) {
   const ScratchDirectory scratch;
   nlohmann::json methods = nlohmann::json::array();
@@ -280,7 +280,7 @@ TEST(Run, PolylinesAreRecordedWhereTheyAreAskedFor) {
   EXPECT_EQ(result.shape("/polylines/point"),
             (std::vector<std::size_t>{static_cast<std::size_t>(point_offset.back()), 3}));
   for (const std::uint8_t closed : result.bytes("/polylines/closed")) EXPECT_EQ(closed, 1);
-  // The length is that of the points.
+  // The length is that of the polyline's points.
   const std::vector<double> point = result.doubles("/polylines/point");
   const auto at = [&](std::int64_t i) {
     return Vec3(Eigen::Map<const Vec3>(&point[3 * static_cast<std::size_t>(i)]));
@@ -291,7 +291,7 @@ TEST(Run, PolylinesAreRecordedWhereTheyAreAskedFor) {
 }
 
 TEST(Run, FixedPosesPlaceTheMeshInTheWorld) {
-  // Turning path and fixed mesh together about z by 90 degrees turns the forces alike.
+  // If path and fixed mesh turn by 90 degrees about z, the forces turn too.
   const ScratchDirectory scratch;
   std::ofstream(scratch / "a.tum") << "0 0.087 0 0 0 0 0 1\n0.1 0.084 0 0 0 0 0 1\n";
   std::ofstream(scratch / "b.tum") << "0 0.01 0.107 0 0 0 0.70710678118654752 0.70710678118654752\n"
@@ -352,7 +352,7 @@ TEST(Summary, ShowsErrorsBesideTimes) {
   EXPECT_THAT(text, HasSubstr("force error ")) << "a force alone would be taken for one";
 }
 
-/// What `run` prints, what `run --json` tells and what the result file carries is one number.
+/// `run`, `run --json` and the result file give the same numbers.
 TEST(Summary, IsTheSameInTheFileAndInJson) {
   const ScratchDirectory scratch;
   const Experiment experiment = short_shapes();
@@ -383,7 +383,7 @@ TEST(Summary, IsTheSameInTheFileAndInJson) {
                                     summary.methods[1].recall_adjacent)));
 }
 
-/// The number of jumps of each method and of its truth, with these methods.
+/// The number of jumps of each of these methods and of its truth.
 std::map<std::string, std::pair<double, double>> jumps_of(const std::string& methods, std::string& label) {
   const Experiment experiment = short_shapes({"/methods=" + methods, "/driver/repetitions=1"});
   const RunSummary summary = summarise(experiment, run_experiment(experiment));

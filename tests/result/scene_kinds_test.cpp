@@ -24,7 +24,7 @@ constexpr const char* TURNED = R"("pose":{"translation_m":[0.001,0,0],"rotation_
 constexpr const char* BENDS =
     R"("deformation":{"generator":"bend","amplitude":0.3,"share":0.3,"direction":[0,0,1],"period_s":0.03})";
 constexpr const char* BREATHES = R"("deformation":{"generator":"breathe","amplitude":0.02,"period_s":0.02})";
-/// Two that sway in the blob's way, and through each other's.
+/// Two balls that sway across the blob's path, and through each other's.
 constexpr const char* BALLS =
     R"("mesh":"small-blob","diagonal_m":0.04,"pose":{"translation_m":[0.013,0.009,0.09]},)"
     R"("instances":{"rule":"grid","counts":[2,1,1],"spacing_diagonals":0.7},)"
@@ -51,7 +51,7 @@ RunResult run_scene(const std::vector<std::string>& moving, const std::vector<st
   return run_experiment(load_experiment(SHAPES_FILE, overrides));
 }
 
-/// The set is the exhaustive one wherever truth looked, and FCL agrees on its nearest distance.
+/// The set is that of `exhaustive` in every probed frame, and FCL agrees on the nearest distance.
 void expect_complete(const RunResult& run, const std::string& what) {
   std::int64_t lmds = 0;
   for (const TruthFrame& frame : run.tracks.front().truth()->frames) lmds += std::ssize(frame.lmds);
@@ -106,7 +106,7 @@ TEST(SceneKinds, AnInstanceExertsWhatTheSameMeshInItsPlaceExerts) {
 
 TEST(SceneKinds, WhatTwoMoversExertOnEachOtherIsOpposite) {
   for (const std::string& aggregation : AGGREGATIONS) {
-    // The torus moves, too, and nothing else is near.
+    // The torus moves too, and nothing else is near.
     const RunResult run = run_scene({BLOB}, {R"("mesh":"ball")", R"("pose":{"translation_m":[0,0,9]})"},
                                     {TORUS, R"("path":{"way_diagonals":0.01,"period_s":0.05})"},
                                     {"/force/aggregation=" + aggregation, "/force/maximum_force_n=0.05"});
@@ -154,7 +154,7 @@ TEST(SceneKinds, OnTheClockFramesAreThoseOfLockstep) {
   const std::vector<Vec3> lockstep = forces_of(run_scene({BLOB, BENDS}, {TORUS}, {BALLS}, slow)),
                           clocked = forces_of(run_scene({BLOB, BENDS}, {TORUS}, {BALLS}, clock));
   ASSERT_EQ(lockstep.size(), clocked.size());
-  // A late tick leaves its period out.
+  // A late tick skips its period.
   std::size_t same = 0;
   for (std::size_t i = 0; i < lockstep.size(); ++i) same += lockstep[i] == clocked[i] ? 1 : 0;
   EXPECT_GT(2 * same, lockstep.size());

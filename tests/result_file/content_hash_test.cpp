@@ -34,7 +34,7 @@ void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// A small dataset in one piece, a large one in chunks, and a text.
+/// A small contiguous dataset, a large chunked one, and a text.
 std::filesystem::path write_result(const std::filesystem::path& file) {
   ResultWriter writer(file);
   writer.attribute("/", "format", RESULT_FORMAT);
@@ -49,7 +49,7 @@ std::filesystem::path write_result(const std::filesystem::path& file) {
   return file;
 }
 
-/// The refusal of a file; empty where it was read.
+/// The error message of reading a file; empty if it can be read.
 std::string refusal(const std::filesystem::path& file) {
   try {
     const ResultReader reader(file);
@@ -75,7 +75,7 @@ TEST(ContentHash, EveryFlippedByteIsSeen) {
   const ScratchDirectory scratch;
   const std::string whole = content_of(write_result(scratch / "whole.h5"));
   ASSERT_EQ(refusal(scratch / "whole.h5"), "");
-  // Everywhere in the structure at the file's begin and end, now and then within the many numbers.
+  // At every place of the structure at the file's start and end, and some within the numbers.
   std::vector<std::size_t> places{whole.find("some words")};
   for (std::size_t at = 8; at < whole.size(); at += whole.size() / 60) places.push_back(at);
   for (const std::size_t place : places) {

@@ -25,7 +25,7 @@ def kept(version):
 
 
 def run(*arguments):
-    return call(PROGRAM, *arguments, timeout=120, cwd=ROOT)  # what the kept files name is found from there
+    return call(PROGRAM, *arguments, timeout=120, cwd=ROOT)  # the kept files name meshes below it
 
 
 class Formats(Scratch):
@@ -53,7 +53,7 @@ class Formats(Scratch):
 
     def test_the_scene_of_every_version_is_shown(self):
         for version in range(1, FORMAT_VERSION + 1):
-            for command in ("export",) if version == 1 else ("report", "export"):  # pages show the summary, which 1 has not
+            for command in ("export",) if version == 1 else ("report", "export"):  # format 1 has no summary for a page
                 with self.subTest(version=version, command=command):
                     done = run(command, kept(version), "--out", self.path(f"{command}-{version}"))
                     self.assertEqual(done.returncode, 0, done.stderr)

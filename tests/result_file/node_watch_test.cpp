@@ -15,7 +15,7 @@
 namespace lmdbench {
 namespace {
 
-/// Sets a variable for a test.
+/// Sets an environment variable for a test.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }
@@ -66,7 +66,7 @@ TEST(NodeWatch, SeesWhoWorksBeside) {
     while (::getppid() != 0) {  // for ever
     }
   }
-  // Until it has had its share, however busy the machine is.
+  // Until the process has had its share, however busy the machine is.
   double share = 0.0;
   nlohmann::json seen;
   for (int tries = 0; tries < 3000 && share < 0.05; ++tries) {

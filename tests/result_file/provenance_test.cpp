@@ -49,9 +49,8 @@ TEST(Provenance, IdentifiesTheRun) {
   EXPECT_THAT(result.strings("/provenance/experiment"), ElementsAre(experiment));
   EXPECT_THAT(result.strings("/provenance/plan"), ElementsAre(R"({"probes": []})"));
   EXPECT_THAT(result.strings("/provenance/inputs/role"), ElementsAre("path"));
-  EXPECT_THAT(
-      result.strings("/provenance/inputs/sha256"),
-      ElementsAre("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"));  // FIPS 180-2, "abc"
+  EXPECT_THAT(result.strings("/provenance/inputs/sha256"),  // FIPS 180-2, "abc"
+              ElementsAre("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"));
   EXPECT_THAT(result.integers("/provenance/inputs/size"), ElementsAre(3));
 }
 

@@ -163,7 +163,7 @@ class RealResultTest(SharedScratch):
         rate = jumps.sum() / (contact.sum() / result.scene("frame_rate_hz"))
         same("jumps_per_second", rate if jumps.sum() >= 10 else np.nan)
         if method.promise == "complete-set":
-            same("true_jumps", jumps.sum())  # its own sets are the truth of every frame: one truth
+            same("true_jumps", jumps.sum())  # own sets are the truth of every frame
         if method.reduces:
             same("reduction_ratio", method.read("candidates").sum() / method.read("kept_after_reduction").sum())
         local = np.median(method.times("local_update_time"), axis=0)[contact]

@@ -139,7 +139,7 @@ TEST(ResultReader, RefusesLinksAndValuesOfOtherFiles) {
               HasSubstr("/ext: has its values in another file"));
 }
 
-/// As other programs write texts: of a fixed length.
+/// Other programs write texts of fixed length.
 TEST(ResultReader, TextsOfAFixedLengthAreNoDamage) {
   const testing::ScratchDirectory scratch;
   const std::filesystem::path file = small_result(scratch / "a.h5");

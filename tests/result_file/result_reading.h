@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// Reading for tests through HDF5's C API alone: nothing of the writer's own code is trusted.
+/// Reading for tests by HDF5's C API alone, so that no code of the writer is trusted.
 namespace lmdbench::testing {
 
 class OpenResult {

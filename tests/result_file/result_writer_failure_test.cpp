@@ -28,7 +28,7 @@ using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
 
-/// What the user reads when `action` fails as it should.
+/// The message that the user gets when `action` fails as it should.
 std::string complaint(const std::function<void()>& action) {
   return testing::message_of<EnvironmentError>(action);
 }
@@ -67,7 +67,7 @@ TEST(ResultWriterFailure, NamesAPlaceThatCannotBeWritten) {
               AllOf(HasSubstr("/proc/lmdbench-result.h5.part"), HasSubstr("--out")));
 }
 
-/// The lock of a run that was killed may outlive it by a moment, in a process that read the part for it.
+/// A killed run's lock may last a moment longer, in a process that reads the part file for it.
 TEST(ResultWriterFailure, WaitsAMomentForTheLock) {
   const ScratchDirectory directory;
   const std::string part = directory / "a.h5.part";
@@ -97,7 +97,7 @@ TEST(ResultWriterFailure, RefusesASecondWriterOfTheSameResult) {
   EXPECT_THAT(OpenResult(directory / "a.h5").doubles("/a"), ElementsAre(2.0));
 }
 
-/// Lets this process write only so many bytes into any file: the write fails as on a full disk.
+/// Limits the size of files that this process writes, so that writing fails as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -116,7 +116,7 @@ class FullDisk {
   void (*previous_handler_)(int) = nullptr;
 };
 
-/// Random samples, because they do not compress.
+/// Random samples do not compress.
 void write_much(ResultWriter& writer) {
   std::vector<double> samples(100'000);
   for (double& sample : samples) sample = std::rand();
@@ -151,7 +151,7 @@ TEST(ResultWriterFailure, CommitWorksOnceThereIsSpaceAgain) {
 }
 
 TEST(ResultWriterFailure, Hdf5PrintsNothing) {
-  // It would print with every failed call and once more when it clears up at the end of the process.
+  // HDF5 would print its own errors with every failed call, and again as the process ends.
   EXPECT_EXIT(
       {
         {

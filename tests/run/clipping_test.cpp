@@ -19,7 +19,7 @@ TEST(ClippingWarning, ManyClippedFramesAreNamed) {
   std::vector<bool> in_contact(100, false);
   for (std::size_t i = 0; i < 50; ++i) in_contact[i] = true;
   for (std::size_t i = 0; i < 5; ++i) record.frames[i].force_clipped = true;
-  record.frames[99].force_clipped = true;  // not in contact: not counted
+  record.frames[99].force_clipped = true;  // out of contact: not counted
   EXPECT_FALSE(clipping_warning(record, in_contact).has_value()) << "a tenth";
   record.frames[5].force_clipped = true;
   EXPECT_THAT(clipping_warning(record, in_contact)->what,

@@ -40,14 +40,14 @@ double distance_to(const Scene& scene, std::size_t instance, const Pose& X_WM) {
       .distance;
 }
 
-/// Of a sphere around the body's origin that holds it.
+/// Radius of a sphere round the body's origin that holds the body.
 double radius_of(const Body& body) {
   double radius = 0.0;
   for (const Vec3& vertex : body.surface().mesh.vertices) radius = std::max(radius, vertex.norm());
   return radius;
 }
 
-/// Instances that may be within reach at the pose, ascending.
+/// Instances that may be within the cutoff at the pose, ascending.
 std::vector<std::uint32_t> near_at(const Pose& pose, BroadPhase& phase, BroadPhase::Work& work) {
   std::vector<std::uint32_t> near;
   phase.advance(pose, work);
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> near_at(const Pose& pose, BroadPhase& phase, BroadPha
   return near;
 }
 
-/// Wanders, turns, trembles, and jumps now and then.
+/// A path that wanders, turns, trembles, and jumps now and then.
 std::vector<Pose> wander(const Vec3& origin, double size, double step, int frames, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<Pose> poses;
@@ -118,14 +118,14 @@ TEST(BroadPhase, TouchesNothingWhereNothingCanComeNear) {
       ++idle;
     }
   }
-  EXPECT_EQ(work.touched, 0u);  // the walls are farther than cutoff and slack
+  EXPECT_EQ(work.touched, 0u);  // farther than cutoff and slack
   EXPECT_GT(idle, 1900);
 }
 
 TEST(BroadPhase, LooksOnlyAtCandidatesWhoseRoomIsUsedUp) {
   Scene scene{make_body("moving", make_box({1.0, 1.0, 1.0})), {}, 0.1};
   const auto mesh = make_body("fixed", make_box({1.0, 1.0, 1.0}));
-  // Boxes at gaps of 0.15 and 0.25 along x; the reach is 0.1 and a bit.
+  // Boxes at gaps of 0.15 and 0.25 along x; the cutoff is 0.1 and a little more.
   scene.fixed.emplace_back(mesh, moved(1.15, 0.0, 0.0));
   scene.fixed.emplace_back(mesh, moved(-1.25, 0.0, 0.0));
   BroadPhase phase(scene);

@@ -23,7 +23,7 @@ using testing::moved;
 using testing::random_direction;
 using testing::uniform;
 
-/// Instances of two meshes about the origin, near each other and into each other.
+/// Instances of two meshes around the origin, near each other and intersecting.
 Scene small_world(double cutoff) {
   Scene scene{make_body("moving", make_blob(0.8, 0.2, 1)), {}, cutoff};
   const auto torus = make_body("torus", make_torus(1.0, 0.4, 10, 6));

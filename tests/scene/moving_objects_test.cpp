@@ -28,7 +28,7 @@ using testing::uniform;
 
 using Bodies = std::vector<std::shared_ptr<const Body>>;
 
-/// Movers with all their poses, among what stands.
+/// Movers with all their poses, and standing objects.
 struct Play {
   Bodies movers;
   std::vector<FixedBody> standing;
@@ -38,7 +38,7 @@ struct Play {
 /// The set of every pair of objects that has one.
 using Sets = std::map<ObjectPair, LmdSet>;
 
-/// A method over the objects of a play.
+/// Runs a method over the objects of a play.
 class Player {
  public:
   explicit Player(const Play& play, double cutoff, const BroadPhase::Tuning& tuning = {},
@@ -63,7 +63,7 @@ class Player {
     for (const Lmd& lmd : at(poses)) sets[ObjectPair::of(lmd.fixed_body, scene_)].push_back(lmd);
     return sets;
   }
-  /// Since the last time that somebody asked.
+  /// Count since the last call.
   std::uint64_t take_count(const std::string& name) {
     for (const CounterDescription& counter : search_.description().counters)
       if (counter.name == name) return std::exchange(counters_.values[counter.index], 0);
@@ -80,12 +80,12 @@ class Player {
   WorkCounters counters_;
 };
 
-/// Places on a grid of 2^-20 m: what is added to them, up to kilometres, changes none of their differences.
+/// Places on a grid of 2^-20 m: adding up to kilometres changes no difference of two of them.
 Vec3 on_grid(const Vec3& p) {
   return (p * 0x1p20).array().round() * 0x1p-20;
 }
 
-/// Blobs, boxes and tori of about 1 m that drift there and back, turn, rest, and of which one jumps now and then, among a few that stand.
+/// Blobs, boxes and tori of about 1 m that drift, turn and rest among some that stand; one jumps.
 Play drifting(std::size_t count, int frames, std::uint64_t seed, const Vec3& origin = Vec3::Zero()) {
   const auto blob = make_body("blob", make_blob(0.5, 0.15, 1)),
              box = make_body("box", make_box({0.7, 0.6, 0.5}, 2)),
@@ -189,7 +189,7 @@ TEST(MovingObjects, FindsTheTruthOfEveryPair) {
 }
 
 TEST(MovingObjects, FindsWhatIsNestedAndCoincident) {
-  // A hollow that turns, what tumbles inside of it and what is outside; each of the small ones twice at the same place, one pair of them at rest.
+  // A turning hollow; small objects inside and outside, each twice in one place, one pair at rest.
   TriangleMesh inwards = make_sphere(1.5, 2);
   for (auto& corners : inwards.triangles) std::swap(corners[1], corners[2]);
   const auto wall = make_body("wall", std::move(inwards)), hull = make_body("hull", make_sphere(1.6, 2)),
@@ -215,7 +215,7 @@ TEST(MovingObjects, FindsWhatIsNestedAndCoincident) {
     const Judged judged = judge(play, cutoff, player, 10);
     EXPECT_GT(judged.of_movers, 100u);
     EXPECT_GT(judged.with_standing, 0u);
-    // What coincides has the same LMDs.
+    // Objects at the same place have the same LMDs.
     Sets sets = player.sets_at(play.frames.back());
     EXPECT_GT((sets[{0, 2}].size()), 0u);
     EXPECT_EQ((sets[{0, 2}].size()), (sets[{0, 3}].size()));
@@ -386,13 +386,13 @@ TEST(MovingObjects, AtRestNothingIsTouched) {
   Player player(play, 0.05);
   player.at(play.frames[0]);
   EXPECT_EQ(player.take_count("broad_phase_queries"), 40u);
-  EXPECT_EQ(player.search().candidate_count(), 39u);  // the neighbours, 0.15 from reach
+  EXPECT_EQ(player.search().candidate_count(), 39u);  // the neighbours, 0.15 beyond the cutoff
   player.take_count("pairs_touched");
   for (int frame = 0; frame < 50; ++frame) EXPECT_TRUE(player.at(play.frames[0]).empty());
   for (const CounterDescription& counter : player.search().description().counters)
     EXPECT_EQ(player.take_count(counter.name), 0u) << counter.name;
   EXPECT_EQ(player.search().method_count(), 1u);  // the first one, for pairs that come near
-  // Both of a pair come nearer by 0.08, within their slack of 0.125: together they use up its room.
+  // Both of a pair move 0.08 nearer, less than their slack of 0.125; together they use it up.
   std::vector<Pose> poses = play.frames[0];
   poses[7].translation.x() += 0.08;
   player.at(poses);
@@ -417,7 +417,7 @@ TEST(MovingObjects, OnlyWhoLeavesItsSlackIsAnchored) {
   player.take_count("broad_phase_queries");
   player.take_count("pairs_touched");
   const std::size_t candidates = player.search().candidate_count();
-  // Ball 0 flies along the row, well out of reach, by 30 m: 0.1 a frame, slack 0.125.
+  // Ball 0 flies 30 m along the row, beyond the cutoff: 0.1 a frame, slack 0.125.
   poses[0].translation.z() = 1.3;
   for (int frame = 0; frame < 300; ++frame) {
     poses[0].translation.x() += 0.1;

@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-/// A box whose middle is not its frame's origin.
+/// A box whose middle is not the origin of its frame.
 const MeshBounds BOUNDS{Vec3(3.0, -1.0, 0.5), Vec3(0.3, 0.4, 1.2), 1.3};
 const double DIAGONAL = 2.6;  // of the box above
 
@@ -65,7 +65,7 @@ TEST(Scatter, APileStandsOnTheFloorAndTouches) {
     lowest = std::min(lowest, place.z());
     highest = std::max(highest, place.z());
     on_floor += place.z() < 1e-9 ? 1 : 0;
-    // Each but those on the floor lies on three.
+    // Every object but those on the floor lies on three others.
     if (place.z() < 0.1) continue;
     EXPECT_GE(std::count_if(places.begin(), places.end(),
                             [&](const Vec3& other) {

@@ -63,7 +63,7 @@ TEST(SceneSearch, OfSeveralFixedMeshesUnitesTheirSetsBitForBit) {
     for (int frame = 0; frame < 60; ++frame) {
       Pose pose = moved(1.4 - 0.03 * frame, 0.9 - 0.01 * frame, 0.6);
       pose.rotation = Eigen::AngleAxisd(0.02 * frame, Vec3(0.0, 0.6, 0.8));
-      // Sets are searched, and those of the frame before tracked.
+      // With tracking, the sets of the frame before are tracked as well.
       for (const bool tracks : {true, false}) {
         if (tracks)
           all->track(pose, tracked, ignored);
@@ -98,7 +98,7 @@ TEST(SceneSearch, OfSeveralFixedMeshesUnitesTheirSetsBitForBit) {
 }
 
 TEST(SceneSearch, ChoosesNearFramesAPair) {
-  // The moving mesh is near the first mesh and the second one far from it: each pair is exact in its own frame.
+  // The moving mesh is near the first mesh, far from the second: each pair has an exact frame.
   const Vec3 far(0x1p26, -0x1p25, 0x1p26);
   const TriangleMesh box = make_box({1.0, 1.0, 1.0}, 2);
   const Scene scene{make_body("moving", make_box({0.75, 0.5, 0.5}, 2)),
@@ -155,7 +155,7 @@ TEST(SceneSearch, MakesAnewOnlyPairsThatAreNearAfterADeformation) {
 }
 
 TEST(SceneSearch, FollowsMeshesThatDeformFarFromTheirOwnOrigin) {
-  // Methods see neither mesh itself but both in near frames: what pairs were given is made anew, too.
+  // Methods do not get the meshes but copies in near frames, which must be renewed too.
   const Vec3 far(512.0, -256.0, 1024.0);
   const auto soft = std::make_shared<Body>("soft", build_surface(translated(make_sphere(0.5, 2), far)));
   Scene scene{make_body("moving", make_sphere(0.5, 2)), {}, 0.2};
@@ -170,7 +170,7 @@ TEST(SceneSearch, FollowsMeshesThatDeformFarFromTheirOwnOrigin) {
       for (Vec3& vertex : vertices) vertex += 0.1 * (vertex - far);
       soft->deform(vertices);
     }
-    // Once while it deforms the pairs are no candidates, and their methods go back.
+    // In one frame the deforming pairs are no candidates, and their methods are given back.
     const Pose pose = moved(frame == 19 ? 50.0 : 0.0, 1.15 + 0.005 * frame, 0.1);
     certified->search(pose, found, ignored);
     truth->search(pose, expected, ignored);

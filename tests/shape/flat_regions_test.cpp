@@ -41,7 +41,7 @@ TEST(FlatRegions, ABoxHasSixFacesTwelveEdgesAndEightCorners) {
       for (std::int32_t s = 0; s < 12; ++s) {
         const StraightEdge& straight = regions.straight_edges[static_cast<std::size_t>(s)];
         EXPECT_EQ(regions.edges_of_straight[s].size(), static_cast<std::size_t>(cells));
-        // End to end, from the first end to the second.
+        // The chain's edges connect its first end with its second one.
         std::int32_t at = straight.ends[0];
         for (const std::int32_t e : regions.edges_of_straight[s]) {
           const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(e)];

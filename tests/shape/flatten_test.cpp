@@ -86,7 +86,7 @@ TEST(Flatten, PutsARoundedBoxBackIntoSixPlanes) {
   }
 }
 
-/// A corner of three planes goes farther than it is from each of them: what is said is what moved, and what may.
+/// A corner of three planes moves farther than its distance from each; the reports include that.
 TEST(Flatten, SaysHowFarTheFarthestMovedAndMight) {
   const std::regex sentence(
       R"((\d+) vertices put back into (\d+) planes that they were within (\S+) of; the farthest moved by (\S+) \(allowed: (\S+)\))");
@@ -105,7 +105,7 @@ TEST(Flatten, SaysHowFarTheFarthestMovedAndMight) {
   }
 }
 
-/// The same mesh counted otherwise: vertices, triangles and the first corner of each.
+/// The same mesh with another order of vertices and triangles, and other first corners.
 TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed, std::vector<std::int32_t>& place) {
   std::mt19937_64 random(seed);
   place.resize(mesh.vertices.size());
@@ -122,7 +122,7 @@ TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed, std::vector<
   return result;
 }
 
-/// Planes at small angles, which compete for vertices: the order of a file decides nothing.
+/// Planes at small angles compete for vertices: the order of a file must not matter.
 TEST(Flatten, DoesNotDependOnHowTheMeshIsCounted) {
   std::size_t given_up = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

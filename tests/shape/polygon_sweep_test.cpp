@@ -26,7 +26,7 @@ double area_of(const std::vector<ConvexPolygon>& pieces) {
   return area;
 }
 
-/// No corner turns right by more than rounding.
+/// Expects that no corner turns right by more than rounding.
 void expect_convex(const std::vector<ConvexPolygon>& pieces) {
   for (const ConvexPolygon& piece : pieces) {
     const std::size_t n = piece.corners.size();
@@ -73,7 +73,7 @@ TEST(ConvexPieces, AHoleIsLeftOut) {
                 ConvexPolygon(circle(2.0, 40, 0.0)).measure().area -
                     ConvexPolygon(circle(1.0, 20, 0.0)).measure().area,
                 1e-12);
-    // A point of the hole is in none of them.
+    // A point of the hole is in no piece.
     for (const ConvexPolygon& piece : pieces)
       EXPECT_FALSE(piece.part_of(Vec2(-0.1, 0.05), Vec2(0.1, 0.0)).end > 0.0);
   }
@@ -106,7 +106,7 @@ TEST(RegionShape, OutlinesAreTheTrianglesTogether) {
       for (const std::int32_t t : regions.region_triangles[region]) {
         const Triangle corners = surface.mesh.triangle(t);
         area += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-        // The grid finds every triangle at its own middle.
+        // The grid finds every triangle from its own middle.
         const Vec2 middle = shape->frame.flat((corners[0] + corners[1] + corners[2]) / 3.0);
         int found = 0;
         Box2 box;

@@ -82,7 +82,7 @@ TEST(ShapeComplex, ABoxHasTheSameWingsHoweverItsFacesAreCut) {
 }
 
 TEST(ShapeComplex, TheInnerCornerOfAnLHasAWingInsideIt) {
-  // An open sheet: without a wing inside, its inner corner would have a quarter of a cone.
+  // An open sheet: without a wing along its inside, the inner corner has a quarter of a cone.
   for (const double size : {0.5, 0.125}) {
     const Surface surface = build_surface(testing::sheet_of({"#.", "##"}, size));
     const ShapeComplex shape = ShapeComplex::of(surface);
@@ -92,7 +92,7 @@ TEST(ShapeComplex, TheInnerCornerOfAnLHasAWingInsideIt) {
       if (surface.mesh.vertices[static_cast<std::size_t>(v)].norm() > 1e-12) continue;
       ASSERT_TRUE(shape.is_corner(v));
       const auto wings = corner_wings(surface, shape, v);
-      // Outwards, between the two chains: some wing is against it.
+      // For the direction outwards, between the two chains, some wing says no.
       const Vec3 outwards = Vec3(1.0, 1.0, 0.0).normalized();
       EXPECT_TRUE(std::ranges::any_of(wings, [&](const Vec3& w) { return w.dot(outwards) > 0.1 * size; }));
       EXPECT_TRUE(std::ranges::any_of(wings, [&](const Vec3& w) { return w.dot(outwards) < -0.1 * size; }));
@@ -132,7 +132,7 @@ TEST(ShapeComplex, NamesTheFirstFaceAtAPoint) {
     const Triangle corners = surface.mesh.triangle(t);
     const std::int32_t region = shape.region_of(t);
     EXPECT_EQ(shape.face_at(surface, region, (corners[0] + corners[1] + corners[2]) / 3.0), t);
-    // On a corner several faces meet: the first of them, and rounding does not matter.
+    // At a corner several faces meet: the first one counts, whatever the rounding.
     const std::int32_t at_corner = shape.face_at(surface, region, corners[1]);
     EXPECT_LE(at_corner, t);
     EXPECT_EQ(shape.face_at(surface, region, corners[1] + Vec3(1e-13, -1e-13, 1e-13)), at_corner);
@@ -157,7 +157,7 @@ TEST(ShapeComplex, TrianglesThatAddNothingHaveNoFeatures) {
 }
 
 TEST(ShapeComplex, ATriangleWithoutAreaThatOthersHangOnIsCarriedByItself) {
-  // A square whose lower half ends at a vertex amid the diagonal: the triangle of the diagonal and that vertex fills the seam.
+  // A square whose lower half has a vertex inside the diagonal; a triangle of both closes the seam.
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
   mesh.triangles = {{0, 2, 3}, {0, 1, 4}, {1, 2, 4}, {0, 4, 2}};

@@ -32,7 +32,7 @@ class Approach {
 };
 
 TEST(FirstApproach, OfBoxesIsWhereTheirFacesAreAGapApart) {
-  // Gaps far above the boxes' sizes too: the bounding spheres alone do not reach them then.
+  // Also gaps far above the sizes of the boxes: then the bounding spheres alone are not near.
   const Approach boxes(testing::make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.3, 0.3, 0.1}, 2), 1.0));
   for (const double gap : {1e-4, 0.05, 1.0, 20.0})
     EXPECT_NEAR(boxes.from({}, Vec3::UnitZ(), gap).reach, 0.1 + gap, 2.0 * TOLERANCE * gap);
@@ -46,7 +46,7 @@ TEST(FirstApproach, IsAGapApartAndFartherEverywhereBeyond) {
       Pose pose{0.02 * testing::random_direction(random), testing::random_rotation(random)};
       const Vec3 start = pose.translation, direction = testing::random_direction(random);
       const double reach = shapes.from(pose, direction, gap).reach;
-      if (!std::isfinite(reach)) continue;  // Through the hole; looked at below.
+      if (!std::isfinite(reach)) continue;  // Through the hole; see below.
       pose.translation = start + reach * direction;
       EXPECT_NEAR(shapes.distance(pose), gap, 2.0 * TOLERANCE * gap);
       for (const double further : {1e-6, 1e-3, 0.01, 0.03, 0.1}) {
@@ -58,7 +58,7 @@ TEST(FirstApproach, IsAGapApartAndFartherEverywhereBeyond) {
 }
 
 TEST(FirstApproach, IsNoneWhereALinePassesWithoutComingNear) {
-  // A small blob along the axis of the torus, whose hole is 0.03 wide.
+  // A small blob along the axis of a torus with a hole of 0.03.
   const Approach shapes(testing::make_scene(make_blob(0.005, 0.0, 2), make_torus(0.05, 0.02, 32, 16), 1.0));
   EXPECT_FALSE(std::isfinite(shapes.from({}, Vec3::UnitZ(), 0.02).reach));
   EXPECT_TRUE(std::isfinite(shapes.from({}, Vec3::UnitZ(), 0.03).reach));

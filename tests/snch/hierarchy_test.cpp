@@ -29,7 +29,7 @@ std::vector<TriangleMesh> shapes() {
           make_l_block(0.05),          make_box({0.1, 0.05, 0.02}, 3)};
 }
 
-/// Calls `visit` with every node and the chain of its ancestors, root first, the node itself last.
+/// Calls `visit` with every node and its chain of ancestors, root first, the node last.
 void for_each_node(const Hierarchy& hierarchy,
                    const std::function<void(const std::vector<const HierarchyNode*>&)>& visit) {
   std::vector<const HierarchyNode*> chain;
@@ -114,13 +114,13 @@ std::map<std::int32_t, std::vector<const HierarchyNode*>> chains_to_leaves(const
   return chains;
 }
 
-/// True LMDs must survive the tests of every pair of nodes above them; decision E2: the printed inequality of
-/// G3 taken literally rejects them.
+/// True LMDs must pass the tests of all pairs of nodes above them. Decision E2: the printed
+/// inequality of G3 rejects them if taken literally.
 TEST(NodeTests, KeepEveryTrueLmd) {
   std::mt19937_64 random(7);
   std::int64_t lmd_count = 0, lost_by_literal_g3 = 0;
   for (const TriangleMesh& mesh : shapes()) {
-    // Far enough apart for the leaves' spheres not to overlap: overlapping ones pass G3 whatever its reading.
+    // Far apart: spheres of leaves that overlap would pass every reading of G3.
     const Scene scene = make_scene(make_blob(0.04, 0.008, 3), mesh, 0.04);
     Exhaustive exhaustive(scene);
     const auto chains_moving = chains_to_leaves(scene.moving->prepared<Hierarchy>());
@@ -183,7 +183,7 @@ TEST(NodeTests, AgreeWithTheAnglesOfThePaper) {
   EXPECT_GT(rejected_g3, 1000);
 }
 
-/// Decision E1: the more faces a leaf's cone covers, the wider it is, and only the widest keeps every LMD.
+/// Decision E1: the more faces a leaf's cone covers, the wider it is; only the widest loses no LMD.
 TEST(LeafCones, TheNarrowerOnesLoseLmds) {
   std::mt19937_64 random(3);
   const Scene scene = make_scene(make_blob(0.04, 0.008, 3), make_torus(0.05, 0.02, 24, 12), 0.04);

@@ -29,7 +29,7 @@ std::vector<StabilityMapRun> runs(const StabilityMapGrid& grid, std::vector<Over
 
 const std::string CERTIFIED = R"(/methods=[{"name": "certified", "force_law": "exponential"}])";
 
-/// A wedge under 1 N: 50 N/m over a reach of 0.9 mm carry 0.05 N, 1500 N/m carry it, far beyond the boundary it shakes.
+/// A wedge under 1 N, 0.9 mm in the cutoff: 50 N/m carry 0.05 N; 1500 N/m carry it, and it shakes.
 TEST(StabilityMap, TellsThroughCleanAndShaking) {
   const auto found = runs({{50.0, 1500.0, 40000.0}, {0}, 2, 900}, {CERTIFIED});
   ASSERT_EQ(found.size(), 6u);

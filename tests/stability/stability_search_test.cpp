@@ -35,14 +35,14 @@ StabilityRow search(const std::vector<Override>& overrides) {
   return find_critical_stiffness(load_experiment(testing::WALL_FILE, overrides)).at(0);
 }
 
-/// The wall's ball 2.02 mm within the cutoff, on a device that never clips: a tap of a quarter of that.
+/// The wall's ball is 2.02 mm within the cutoff, on a device without clipping; taps of a quarter.
 std::vector<Override> pressed(const std::vector<Override>& more) {
   std::vector<Override> overrides{"/loop/push_n=[0, 0, 0]", "/force/cutoff_m=0.022"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return overrides;
 }
 
-/// Characterization: the simulation, through meshes and method, finds the table of the exact boundary.
+/// Characterization: simulation with meshes and method gives the table of the exact boundary.
 TEST(StabilitySearch, WallReproducesTheExactTable) {
   const std::pair<int, double> table[] = {
       {0, 1605.3511}, {1, 536.2786}, {2, 322.7439}, {5, 148.0801}, {10, 78.7445}};
@@ -53,13 +53,13 @@ TEST(StabilitySearch, WallReproducesTheExactTable) {
   }
 }
 
-/// How many random devices are tried: a few in every run, LMDBENCH_STABILITY_DEVICES in a long one.
+/// Number of random devices: a few, or LMDBENCH_STABILITY_DEVICES in a long run.
 int device_count() {
   const char* const wanted = std::getenv("LMDBENCH_STABILITY_DEVICES");
   return wanted != nullptr ? std::atoi(wanted) : 5;
 }
 
-/// The softest boundary of the range that scripts ask for still carries the file's push.
+/// The softest boundary that scripts ask for still carries the file's push.
 TEST(StabilitySearch, WallFindsVerySoftBoundaries) {
   const StabilityRow row = search(
       {"/loop/mass_kg=0.1", "/loop/damping_n_s_per_m=0.1", "/frame_rate_hz=250", "/loop/delay_frames=100"});
@@ -67,7 +67,7 @@ TEST(StabilitySearch, WallFindsVerySoftBoundaries) {
   EXPECT_LT(row.exact_n_per_m, 0.5);
 }
 
-/// Any device, rate and delay: the searched stiffness is the exact one to 0.1 %.
+/// For any device, rate and delay the stiffness found is exact to 0.1 %.
 TEST(StabilitySearch, WallIsExactForEveryDevice) {
   std::mt19937_64 random(20);
   const auto logarithmic = [&random](double least, double most) {
@@ -97,7 +97,7 @@ StabilityRow search_lever(const std::vector<Override>& overrides) {
   return find_critical_stiffness(load_experiment(testing::LEVER_FILE, overrides)).at(0);
 }
 
-/// A device too heavy to move, touched 50 mm beside the point where it turns: K l^2 is the critical stiffness of a rotational wall.
+/// A device too heavy to move, touched 50 mm beside its turning point: a rotational wall, K l^2.
 TEST(StabilitySearch, RotationalWallIsExact) {
   for (const int delay : {0, 3}) {
     const StabilityRow row = search_lever(
@@ -120,7 +120,7 @@ TEST(StabilitySearch, TurningDeviceIsExact) {
 }
 
 TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
-  // The Desktop renders 7.9 N at most; 11 mm deep that is 717 N/m, below the boundary.
+  // The Desktop renders 7.9 N at most: 717 N/m at 11 mm depth, below the boundary.
   const StabilityRow row =
       search({"/device=phantom-desktop", "/loop/push_n=[0, 0, 0]", "/force/cutoff_m=0.031"});
   EXPECT_EQ(row.clean_until, "device_force");
@@ -128,8 +128,8 @@ TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
 }
 
 TEST(StabilitySearch, DeviceThatClipsTheTorqueFirstSaysSo) {
-  // 0.188 N m at most, 50 mm beside the point held and 11 mm deep: 341 N/m, below the boundary and below the 8.5 N of the force.
-  // The hand's spring keeps the lever from rolling over the tip that it is pressed onto.
+  // 0.188 N m at most, 50 mm beside the held point and 11 mm deep: 341 N/m, less than the boundary
+  // and than 8.5 N give. The hand's spring keeps the lever from rolling over the tip.
   const StabilityRow row =
       search_lever({"/device=phantom-premium-1.5-6dof", "/loop/push_n=[0, 0, 0]", "/force/cutoff_m=0.031",
                     "/loop/friction_n=0", "/loop/resolution_m=0",
@@ -140,13 +140,13 @@ TEST(StabilitySearch, DeviceThatClipsTheTorqueFirstSaysSo) {
   EXPECT_GT(row.exact_n_per_m, 1.5 * torque_limit);
 }
 
-/// Counts make growth no smooth function of the stiffness; what is found is clean, and near the exact boundary, above which nothing is.
+/// With counts, growth is not smooth in the stiffness. The answer is clean; none far above it is.
 TEST(StabilitySearch, IsNearTheBoundaryWhereEncodersCount) {
   for (const double resolution : {1e-5, 3e-5, 1e-4}) {
     const std::string counts = fmt::format("/loop/resolution_m={}", resolution);
     const StabilityRow row = search(pressed({counts}));
     const auto clean_at = [&](double stiffness) {
-      // F_max over the cutoff.
+      // F_max divided by the cutoff.
       const Experiment experiment = load_experiment(
           testing::WALL_FILE, pressed({counts, fmt::format("/force/maximum_force_n={}", 0.022 * stiffness)}));
       const PreparedRun prepared = prepare(experiment);
@@ -162,7 +162,7 @@ TEST(StabilitySearch, IsNearTheBoundaryWhereEncodersCount) {
 }
 
 TEST(StabilitySearch, PushIsCarriedOrThereIsNoCleanStiffness) {
-  // 78.7 N/m over a reach of 20 mm carry 1.57 N: what is soft enough not to shake lets a push of 2 N through.
+  // 78.7 N/m over 20 mm carry 1.57 N: a stiffness that does not shake cannot carry a push of 2 N.
   const auto row = [](double push) {
     return search({"/loop/delay_frames=10", fmt::format("/loop/push_n=[0, 0, {}]", -push)});
   };
@@ -173,7 +173,7 @@ TEST(StabilitySearch, PushIsCarriedOrThereIsNoCleanStiffness) {
 }
 
 TEST(StabilitySearch, ClipAtTheProfilesMaximumIsScaledWithIt) {
-  // 20 N rest beyond the file's F_max of 10 N, not beyond that of the boundary's stiffness, 32 N.
+  // 20 N exceed the file's F_max of 10 N, but not the 32 N at the boundary's stiffness.
   const StabilityRow row = search({"/loop/push_n=[0, 0, -20]", "/force/clip=maximum"});
   EXPECT_NEAR(row.critical_stiffness_n_per_m, 1605.3511, 1.6);
 }
@@ -189,7 +189,7 @@ TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
           try_stiffness(experiment, prepared.input, driven_methods(experiment, prepared).at(0), {});
       ASSERT_TRUE(trial.carried && trial.in_contact);
       EXPECT_NEAR(trial.force_at_rest_W.z(), push, 1e-6 * push) << law;
-      // F = F_max (e^(k s) - 1) / (e^k - 1): its slope grows with the force, k (F + F_max / (e^k - 1)) / cutoff.
+      // F = F_max (e^(k s) - 1) / (e^k - 1): its slope is k (F + F_max / (e^k - 1)) / cutoff.
       const double slope =
           std::string(law) == "linear" ? 500.0 : 4.0 * (push + 10.0 / std::expm1(4.0)) / 0.02;
       EXPECT_NEAR(trial.stiffness_n_per_m, slope, 1e-5 * slope) << law;
@@ -210,7 +210,7 @@ TEST(StabilitySearch, NothingIsCleanWithoutDamping) {
   EXPECT_EQ(row.clean_until, "never");
 }
 
-/// Devices that lose all their speed within a period shake at half the servo rate; their boundary is near 2 b / T.
+/// Devices that lose all speed within a period shake at half the rate; boundary near 2 b / T.
 TEST(StabilitySearch, OverdampedDevicesAreExact) {
   for (const auto& [mass, damping, delay] : {std::tuple{1e-6, 10.0, 0}, {1e-4, 5.0, 3}, {0.01, 10.0, 100}}) {
     const StabilityRow row =
@@ -228,9 +228,9 @@ struct CoulombDevice {
   int delay;
 };
 
-/// One axis by itself: mass, damper, Coulomb friction that holds, a sampled spring about the place of rest. Steps of a five hundredth of
-/// a period, velocity first.
-/// @return whether a tap that would swing to `tap` dies down before it swings to half of PRESSED_M
+/// One axis alone: mass, damper, Coulomb friction that holds, and a sampled spring about the rest
+/// position, in steps of 1/500 period, velocity first.
+/// @return whether a tap that would swing to `tap` decays before it swings to half of PRESSED_M
 bool dies_down(const CoulombDevice& device, double stiffness, double tap) {
   constexpr double PERIOD = 1e-3;
   constexpr int STEPS = 500;
@@ -270,7 +270,7 @@ double critical_by_itself(const CoulombDevice& device, double tap) {
   return low;
 }
 
-/// Through meshes, method and the device's exact integrator, as by an integration that shares nothing with them.
+/// Through meshes, method and exact integrator, against an integration without shared code.
 TEST(StabilitySearch, FrictionIsAsAnIndependentIntegrationHasIt) {
   for (const CoulombDevice& device :
        {CoulombDevice{0.045, 0.005, 0.06, 0}, CoulombDevice{0.04, 0.8, 0.1, 0},
@@ -289,7 +289,7 @@ TEST(StabilitySearch, FrictionIsAsAnIndependentIntegrationHasIt) {
   }
 }
 
-/// What friction f takes, 4 f a an oscillation, against what a held force of a stiffness K gives, pi w a^2 (K (T/2 + t_d) - b).
+/// Friction f takes 4 f a an oscillation; a held stiffness K gives pi w a^2 (K (T/2 + t_d) - b).
 TEST(StabilitySearch, FrictionIsNearItsEnergyBalance) {
   for (const auto& [friction, delay] : {std::pair{0.06, 0}, {0.03, 1}, {0.12, 0}}) {
     const StabilityRow row = search(
@@ -313,7 +313,7 @@ TEST(StabilitySearch, LargerTapsBearLessStiffness) {
   EXPECT_GT(small.critical_stiffness_n_per_m, large.critical_stiffness_n_per_m);
 }
 
-/// 1 um within the cutoff no tap beats 0.1 N: "stuck", where a search by growth found 26,024 N/m.
+/// 1 um within the cutoff no tap overcomes 0.1 N: "stuck"; a search by growth gives 26,024 N/m.
 TEST(StabilitySearch, TapsWithinFrictionAreStuck) {
   for (const char* counts : {"0", "3e-5"}) {
     const StabilityRow row = search({"/loop/friction_n=0.1", std::string("/loop/resolution_m=") + counts});
@@ -323,13 +323,13 @@ TEST(StabilitySearch, TapsWithinFrictionAreStuck) {
     EXPECT_LT(row.trials, 100);
     EXPECT_NE(advice(row).find("/loop/push_n of more than 0.8 N"), std::string::npos) << advice(row);
   }
-  // The remedy is one.
+  // The remedy of the message works.
   const StabilityRow row = search({"/loop/friction_n=0.1", "/loop/push_n=[0, 0, -2]"});
   EXPECT_TRUE(row.has_answer());
   EXPECT_GT(row.critical_stiffness_n_per_m, row.exact_n_per_m);
 }
 
-/// Without friction, too, a tap within the counts shows nothing: four counts, as far as the contact leaves the way.
+/// Also without friction a tap within four counts shows nothing; nor may it leave the contact.
 TEST(StabilitySearch, TapsAreSeenByTheEncoders) {
   const double exact = search(pressed({})).tap_m;
   const double fine = search(pressed({"/loop/resolution_m=1e-6"})).tap_m;
@@ -345,7 +345,7 @@ TEST(StabilitySearch, TapsAreSeenByTheEncoders) {
   EXPECT_NE(advice(row).find("encoders"), std::string::npos) << advice(row);
 }
 
-/// Friction and counts of real devices: an answer with a reason, in few trials.
+/// Friction and counts of real devices give an answer with a reason, in few trials.
 TEST(StabilitySearch, PhantomsHaveAnAnswer) {
   for (const char* device : {"phantom-desktop", "phantom-premium-1.5", "phantom-premium-1.5-6dof",
                              "phantom-omni", "phantom-premium-3.0-6dof"}) {

@@ -9,12 +9,12 @@
 #include <set>
 #include <vector>
 
-/// Closed meshes with known Euler characteristics of the solids that they bound.
+/// Closed meshes that bound solids of known Euler characteristics.
 namespace lmdbench::testing {
 
 using Voxel = std::array<int, 3>;
 
-/// Unit cubes joined at their faces, by one corner each; no two may share an edge or a corner alone.
+/// Unit cubes joined at faces, given by one corner each; no two may share only an edge or a corner.
 inline TriangleMesh make_voxels(const std::set<Voxel>& cubes) {
   TriangleMesh mesh;
   std::map<Voxel, std::int32_t> vertices;

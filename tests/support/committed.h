@@ -6,7 +6,7 @@
 
 #include <string>
 
-/// Experiments of the repository that tests run as they are or with overrides.
+/// Experiments of the repository that tests run, with or without overrides.
 namespace lmdbench::testing {
 
 inline const std::string SHAPES_FILE = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";

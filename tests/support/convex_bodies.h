@@ -14,14 +14,14 @@
 #include <utility>
 #include <vector>
 
-/// Convex bodies with known faces, and poses that put their borders and corners over each other.
+/// Convex bodies with known faces, and poses with their borders and corners over each other.
 namespace lmdbench::testing {
 
 struct ConvexBody {
   std::vector<Vec3> vertices;
-  std::vector<std::vector<std::int32_t>> faces;  ///< Convex polygons, counter-clockwise seen from outside.
+  std::vector<std::vector<std::int32_t>> faces;  ///< Convex, counter-clockwise from outside.
 
-  /// Each face as a fan: round its first corner, or round a vertex in its middle.
+  /// Each face becomes a fan round its first corner, or round a vertex in its middle.
   TriangleMesh mesh(bool with_middles = false) const {
     TriangleMesh mesh;
     mesh.vertices = vertices;
@@ -32,7 +32,7 @@ struct ConvexBody {
         continue;
       }
       const auto middle = static_cast<std::int32_t>(mesh.vertices.size());
-      // Of two corners that face each other, so that it lies in the face.
+      // The middle of two opposite corners, so that it lies in the face.
       const Vec3 x = 0.5 * (vertices[static_cast<std::size_t>(face[0])] +
                             vertices[static_cast<std::size_t>(face[face.size() / 2])]);
       mesh.vertices.push_back(x);
@@ -49,7 +49,7 @@ struct ConvexBody {
   }
 };
 
-/// Between a polygon at the height 0 and its copy at `height`, scaled by `taper` and moved by `lean`.
+/// Between a polygon at height 0 and its copy at `height`, scaled by `taper` and moved by `lean`.
 inline ConvexBody make_frustum(const std::vector<Vec3>& polygon, double height, double taper,
                                const Vec3& lean) {
   ConvexBody body;
@@ -82,7 +82,7 @@ inline std::vector<Vec3> regular_polygon(int n, double radius, double turn) {
   return corners;
 }
 
-/// Convex hull of points in general position, by asking every triple.
+/// Convex hull of points in general position, by testing every triple.
 inline ConvexBody make_hull(const std::vector<Vec3>& points) {
   ConvexBody body;
   body.vertices = points;
@@ -107,7 +107,7 @@ inline ConvexBody random_convex_body(std::mt19937_64& random) {
   const auto length = [&] { return 0.2 + 1.3 * uniform(random); };
   switch (random() % 4) {
     case 0:
-      // Simple fractions too: borders that coincide exactly.
+      // Simple fractions, too, so that borders coincide exactly.
       return random() % 2 == 0 ? make_convex_box({length(), length(), length()})
                                : make_convex_box({0.25 * static_cast<double>(1 + random() % 4),
                                                   0.25 * static_cast<double>(1 + random() % 4), 0.5});
@@ -128,12 +128,12 @@ inline ConvexBody random_convex_body(std::mt19937_64& random) {
   return hull.faces.size() >= 4 ? hull : make_convex_box({1.0, 1.0, 1.0});
 }
 
-/// 0 in one case of five, else 10 to a uniform exponent.
+/// 0 in one case of five, otherwise 10 to a uniform exponent.
 inline double power_of_ten(std::mt19937_64& random, double lowest, double highest) {
   return random() % 5 == 0 ? 0.0 : std::pow(10.0, lowest + (highest - lowest) * uniform(random));
 }
 
-/// A point of a face: a corner, on a side, its middle or anywhere between three corners.
+/// A point of a face: a corner, a point of a side, the middle, or a point between three corners.
 inline Vec3 anchor_of(const ConvexBody& body, std::size_t face, std::size_t first, std::mt19937_64& random) {
   const Vec3 a = body.corner(face, first), b = body.corner(face, first + 1), c = body.corner(face, first + 2);
   switch (random() % 5) {
@@ -151,9 +151,9 @@ inline Vec3 anchor_of(const ConvexBody& body, std::size_t face, std::size_t firs
   }
 }
 
-/// A face of the moving body over one of the fixed one, a corner, side or point of it over such a one, with a gap of 1e-7 to .3;
-/// sides along each other, across, or at any angle; next to that moved by 0 or 1e-16 to 1e-5, tilted by 0 or 1e-16 to 1e-2, turned
-/// by 0 or 1e-14 to 1e-4.
+/// A face, corner, side or point of the moving body over one of the fixed body, at a gap of 1e-7 to
+/// .3; sides along each other, across, or at any angle. In addition moved by 0 or 1e-16 to 1e-5,
+/// tilted by 0 or 1e-16 to 1e-2, turned by 0 or 1e-14 to 1e-4.
 inline Pose flush_pose(const ConvexBody& moving, const ConvexBody& fixed, std::mt19937_64& random) {
   const auto frame = [](const Vec3& n, const Vec3& along) {
     Mat3 axes;

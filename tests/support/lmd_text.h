@@ -11,7 +11,7 @@
 
 namespace lmdbench::testing {
 
-/// LMDs as messages of tests show them, a line each.
+/// LMDs as text for messages of tests, one a line.
 inline std::string text(const LmdSet& lmds) {
   std::string result;
   for (const Lmd& lmd : lmds)
@@ -22,7 +22,7 @@ inline std::string text(const LmdSet& lmds) {
   return result;
 }
 
-/// A pose as code that makes it.
+/// A pose as C++ code.
 inline std::string text(const Pose& pose) {
   return fmt::format(
       "{{Vec3({:.17g}, {:.17g}, {:.17g}), Eigen::Quaterniond({:.17g}, {:.17g}, {:.17g}, {:.17g})}}",

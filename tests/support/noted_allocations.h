@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-/// Replaces operator new and delete of the test program that includes it, in one file of it, which defines note_allocation.
+/// Replaces operator new and delete; include it in one file of a test program, which defines this:
 namespace lmdbench::testing {
 
 /// Called at every allocation, in the thread that makes it.
@@ -28,7 +28,7 @@ void* operator new(std::size_t size) {
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return lmdbench::testing::noted_allocation(size, static_cast<std::size_t>(alignment));
 }
-// The sanitizers bring a form of their own, whose memory our delete must not get.
+// The sanitizers have a form of their own, whose memory this delete must not get.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {
     return lmdbench::testing::noted_allocation(size, alignof(std::max_align_t));

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <vector>
 
-/// Outward polar cones as decision/DEFINITION.md states them, by the corners of the incident triangles: what caps and decisions are held to.
+/// Outward polar cones by decision/DEFINITION.md from incident triangles, to check caps.
 namespace lmdbench::testing {
 
 /// @param p_S        point on the feature, mesh frame
@@ -29,7 +29,7 @@ inline bool in_polar_cone(const Surface& surface, const FeatureId& feature, cons
   });
 }
 
-/// Unit vectors of a polar cone that are square to two of its wings: all its extreme directions are among them. A face has one.
+/// Unit vectors of a polar cone square to two wings, all extreme ones among them. A face has one.
 inline std::vector<Vec3> extreme_directions(const Surface& surface, const FeatureId& feature) {
   constexpr double ROUNDING = 1e-9;  // of the products of nearly parallel wings
   if (feature.kind == FeatureKind::FACE) {

@@ -14,11 +14,11 @@
 
 namespace lmdbench::testing {
 
-/// Corners on a circle of radius 1 or on a slender ellipse, at random angles; at least three of them amid which the origin is.
+/// At least three corners, around the origin, on a circle of radius 1 or a thin ellipse.
 inline ConvexPolygon random_convex_polygon(std::mt19937_64& random, int count) {
   std::vector<double> angles;
   const double start = 2.0 * std::numbers::pi * uniform(random);
-  // One in each of as many sectors: never nearly equal ones alone, never all on one side.
+  // One angle in each of `count` sectors: not all nearly equal, and not all on one side.
   for (int k = 0; k < count; ++k)
     angles.push_back(start + 2.0 * std::numbers::pi * (k + 0.8 * uniform(random)) / count);
   const double flat = random() % 3 == 0 ? 0.05 : 1.0;

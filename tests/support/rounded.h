@@ -12,10 +12,10 @@
 #include <random>
 #include <utility>
 
-/// Meshes as files in single precision hold them.
+/// Meshes as in files of single precision.
 namespace lmdbench::testing {
 
-/// Some rigid motion that depends on the seed: any rotation, up to half a metre away along each axis.
+/// A rigid motion from a seed: any rotation, up to half a metre along each axis.
 inline Pose pose_of_seed(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   Pose pose;

@@ -53,7 +53,7 @@ inline Eigen::Quaterniond random_rotation(std::mt19937_64& random) {
           std::sqrt(u) * std::cos(b)};
 }
 
-/// A pose of random orientation whose distance to the scene's first fixed body is `gap`, reached from outside.
+/// A pose of random orientation at distance `gap` from the first fixed body, reached from outside.
 inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random) {
   const Body& moving = *scene.moving;
   const Body& fixed = *scene.fixed[0];
@@ -63,7 +63,7 @@ inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random
   const double reach = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
                                       fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-9)
                            .reach;
-  if (!std::isfinite(reach)) return grazing_pose(scene, gap, random);  // The line passes without coming near.
+  if (!std::isfinite(reach)) return grazing_pose(scene, gap, random);  // A miss.
   pose.translation = reach * outward;
   return pose;
 }

@@ -10,7 +10,7 @@
 
 namespace lmdbench::testing {
 
-/// A directory of its own for every test, removed afterwards.
+/// A directory for each test, removed afterwards.
 class ScratchDirectory {
  public:
   ScratchDirectory() {
@@ -28,7 +28,7 @@ class ScratchDirectory {
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes a file, folders on the way included, and returns its name.
+  /// Writes a file and missing folders; returns its name.
   std::string write(const std::string& name, const std::string& content) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());

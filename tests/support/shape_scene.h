@@ -13,7 +13,7 @@
 
 namespace lmdbench::testing {
 
-/// Turned about an axis of any length, then moved.
+/// A turn about an axis of any length, then a translation.
 inline Pose turned_by(double angle, const Vec3& axis, const Vec3& translation) {
   return {translation, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
 }
@@ -40,7 +40,7 @@ inline LmdSet joined(const ShapePair& pair, ContactSet& contacts) {
   return lmds;
 }
 
-/// Two meshes with their shapes, and what all pairs of their features share at a pose.
+/// Two meshes with their shapes, and the contacts of all pairs of their features at a pose.
 class ShapeScene {
  public:
   ShapeScene(TriangleMesh moving, TriangleMesh fixed, double cutoff = 1.0)
@@ -56,7 +56,7 @@ class ShapeScene {
   const ShapeComplex& shape_moving() const { return shape_moving_; }
   const ShapeComplex& shape_fixed() const { return shape_fixed_; }
 
-  /// Valid until the next call.
+  /// The pair is valid until the next call.
   ShapePair at(const Pose& X_WM) {
     X_WM_ = RigidTransform(X_WM);
     return {{moving_, shape_moving_, X_WM_, true},

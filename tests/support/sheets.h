@@ -12,8 +12,8 @@
 
 namespace lmdbench::testing {
 
-/// Open sheet in the plane z = 0, two triangles a square: where a row of the picture has a '#'. Rows from the top down, squares of
-/// side `size` [m], the picture's middle at the origin.
+/// Open sheet in the plane z = 0, two triangles for each '#' of the picture. Rows are from the top
+/// down, squares have side `size` [m], and the picture's middle is at the origin.
 /// @param is_upward  outer side
 inline TriangleMesh sheet_of(const std::vector<std::string>& picture, double size, bool is_upward = true) {
   TriangleMesh mesh;

@@ -9,7 +9,7 @@
 
 namespace lmdbench::testing {
 
-/// Of a closed mesh, in its unit cubed; positive where its normals point outwards.
+/// Volume of a closed mesh, in its unit cubed; positive if its normals point outwards.
 inline double signed_volume(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -97,7 +97,7 @@ TEST(Journal, TakesWhatAnotherOneHoldsAndWritesOnlyItsOwn) {
 TEST(Journal, ReadingChangesNoFile) {
   const ScratchDirectory scratch;
   { Journal(scratch / "a.jsonl").append(entry("x", 0, 1)); }
-  std::ofstream(scratch / "a.jsonl", std::ios::app) << R"({"key":"y","repet)";  // somebody else is at it
+  std::ofstream(scratch / "a.jsonl", std::ios::app) << R"({"key":"y","repet)";  // another writer
   const std::uintmax_t size = std::filesystem::file_size(scratch / "a.jsonl");
   EXPECT_EQ(Journal(scratch / "a.jsonl").find("y", 0), nullptr);
   EXPECT_EQ(std::filesystem::file_size(scratch / "a.jsonl"), size);

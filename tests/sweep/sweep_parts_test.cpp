@@ -37,7 +37,7 @@ constexpr const char* PARTED_SWEEP = R"({
      "axes": [{"/moving/mesh": ["blob", "MESH"]}]}
   ]})";
 
-/// Replaces the word in the text.
+/// Replaces one word of the text.
 std::string with(std::string text, const std::string& word, const std::string& value) {
   return text.replace(text.find(word), word.size(), value);
 }

@@ -35,9 +35,9 @@ class CgalVertices : public GlobalSearch {
 
 }  // namespace
 
-/// CGAL's tree answers points, not meshes: the least distance of any vertex of one mesh from the other mesh,
-/// an upper bound of the minimum distance that is exact unless the nearest pair is edge on edge. Each query
-/// looks no farther than the best so far.
+/// CGAL's tree answers points, not meshes: this is the least distance of any vertex of one mesh to
+/// the other mesh. It is an upper bound of the minimum distance, exact unless the nearest pair is
+/// edge-edge. Each query searches no farther than the best so far.
 SearchImplementation cgal_vertex_search() {
   return {"cgal-vertices", Promise::APPROXIMATION, false,
           [](const Scene& scene) { return std::make_unique<CgalVertices>(scene); }};

@@ -9,7 +9,7 @@ LmdError check_search(const SearchImplementation& implementation, GlobalSearch& 
   LmdError error;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     search.run(poses[i]);
-    // What the paper's searches leave are candidates, a pair once for every triangle pair that found it.
+    // The paper's searches yield candidates: a pair appears once per triangle pair that found it.
     const LmdSet* lmds = search.lmds();
     LmdSet candidates;
     if (lmds != nullptr && implementation.promise == Promise::APPROXIMATION) {

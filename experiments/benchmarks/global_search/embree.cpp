@@ -45,8 +45,8 @@ class EmbreeSearch : public GlobalSearch {
 
 }  // namespace
 
-/// The nearest pair by Embree, which knows no queries between meshes: one point query a moving triangle,
-/// round its centre, that looks no farther than the best pair so far. Triangle distances are ours.
+/// The nearest pair by Embree, which has no queries between meshes: one point query per moving
+/// triangle, round its centre, no farther than the best pair so far. Triangle distances are ours.
 SearchImplementation embree_search() {
   return {"embree", Promise::NEAREST_PAIR, false,
           [](const Scene& scene) { return std::make_unique<EmbreeSearch>(scene); }};

@@ -23,14 +23,14 @@ class FclSearch : public GlobalSearch {
 
 }  // namespace
 
-/// FCL's nearest pair, every query from scratch: how FCL itself works.
+/// FCL's nearest pair, each query from scratch, as FCL itself works.
 SearchImplementation fcl_cold_search() {
   return {"fcl-cold", Promise::NEAREST_PAIR, false,
           [](const Scene& scene) { return std::make_unique<FclSearch>(scene, false); }};
 }
 
-/// FCL's nearest pair, each query seeded with the last pair's distance. On unrelated poses the seed is a poor
-/// bound; on a path it halves the time.
+/// FCL's nearest pair, each query seeded with the last pair's distance. At unrelated poses the seed
+/// is a poor bound; on a path it halves the time.
 SearchImplementation fcl_warm_search() {
   return {"fcl-warm", Promise::NEAREST_PAIR, false,
           [](const Scene& scene) { return std::make_unique<FclSearch>(scene, true); }};

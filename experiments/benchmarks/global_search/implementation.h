@@ -14,14 +14,14 @@
 
 namespace lmdbench::experiments {
 
-/// Task "global search": from a pose, what is near what. Each implementation is checked against
-/// ground truth before it is timed.
+/// Task "global search": near features at a pose. Each implementation is checked against the truth
+/// before it is timed.
 class GlobalSearch {
  public:
   virtual ~GlobalSearch() = default;
-  /// What is timed.
+  /// The timed work.
   virtual void run(const Pose& X_WM) = 0;
-  /// Smallest distance that the last `run` found [m]; NaN where it found nothing.
+  /// Smallest distance of the last `run` [m]; NaN where it found nothing.
   virtual double minimum_distance() const = 0;
   /// LMD set of the last `run`; null for peers that find a nearest pair only.
   virtual const LmdSet* lmds() const = 0;
@@ -30,16 +30,16 @@ class GlobalSearch {
 struct SearchImplementation {
   std::string name;
   Promise promise = Promise::APPROXIMATION;
-  bool slow = false;  ///< Only timed where asked for.
+  bool slow = false;  ///< Only timed on request.
   std::function<std::unique_ptr<GlobalSearch>(const Scene&)> make;
 };
 
-/// A method's `search`, followed by as many trackings as the global thread adds (paper, section 4.3): named
-/// after the method, with "+reduction" where trackings follow.
+/// A method's `search`, followed by as many trackings as the global thread adds (paper, section
+/// 4.3). It is named after the method, with "+reduction" where trackings follow.
 SearchImplementation method_search(const std::string& method, int trackings = 0,
                                    const nlohmann::json& options = nlohmann::json::object());
 
-/// Every method of the registry; those that reduce with and without the first reduction.
+/// Every method of the registry; those with a first reduction also without it.
 std::vector<SearchImplementation> method_searches();
 
 /// `certified` without frame coherence.
@@ -49,8 +49,8 @@ SearchImplementation fcl_warm_search();
 SearchImplementation embree_search();
 SearchImplementation cgal_vertex_search();
 
-/// All that this build knows, in the order of reports, but for `cgal_vertex_search`,
-/// which has a program of its own.
+/// All implementations of this build, in the order of reports, except `cgal_vertex_search`, which
+/// has its own program.
 std::vector<SearchImplementation> search_implementations();
 
 }  // namespace lmdbench::experiments

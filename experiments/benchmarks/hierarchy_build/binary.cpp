@@ -26,7 +26,7 @@ class BinaryBuild : public HierarchyBuild {
 
 }  // namespace
 
-/// The paper's: binary, spheres with normal cones, one triangle a leaf.
+/// The paper's hierarchy: binary, spheres with normal cones, one triangle a leaf.
 BuildImplementation binary_hierarchy_build() {
   return {"binary", 1e-9, [](const Surface& surface) { return std::make_unique<BinaryBuild>(surface); }};
 }

@@ -24,8 +24,8 @@ class CgalBuild : public HierarchyBuild {
 
 }  // namespace
 
-/// CGAL's tree of boxes, with the copy into its triangles; without the points that speed up queries without a
-/// hint, which it makes at the first of those.
+/// CGAL's tree of boxes, with the copy into its triangles; without the points for queries without
+/// hint, which it makes at the first such query.
 BuildImplementation cgal_build() {
   return {"cgal-aabb", 1e-9, [](const Surface& surface) { return std::make_unique<CgalBuild>(surface); }};
 }

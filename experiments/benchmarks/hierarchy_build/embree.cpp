@@ -36,7 +36,7 @@ class EmbreeBuild : public HierarchyBuild {
 
 }  // namespace
 
-/// Embree's, in single precision, with a device of its own and the copy into its buffers. Uses all cores.
+/// Embree's hierarchy: single precision, own device, copy into its buffers. Uses all cores.
 BuildImplementation embree_build() {
   return {"embree", 1e-9, [](const Surface& surface) { return std::make_unique<EmbreeBuild>(surface); }};
 }

@@ -27,7 +27,7 @@ std::vector<fcl::Triangle> triangles_of(const TriangleMesh& mesh) {
 
 class FclBuild : public HierarchyBuild {
  public:
-  /// FCL takes small triangles for nothing (crosscheck/fcl_crosscheck.h), so it gets edges of about 1.
+  /// FCL treats small triangles as empty (crosscheck/fcl_crosscheck.h), so edges get a length of 1.
   explicit FclBuild(const Surface& surface)
       : scale_(1.0 / mean_edge_length(surface.mesh)),
         vertices_(scaled_vertices(surface.mesh)),
@@ -57,7 +57,7 @@ class FclBuild : public HierarchyBuild {
 
 }  // namespace
 
-/// FCL's hierarchy of oriented boxes and swept spheres, copying the mesh into its model included.
+/// FCL's hierarchy of oriented boxes and swept spheres, with the copy of the mesh into its model.
 BuildImplementation fcl_build() {
   return {"fcl-obbrss", 1e-6, [](const Surface& surface) { return std::make_unique<FclBuild>(surface); }};
 }

@@ -16,7 +16,7 @@ namespace lmdbench::experiments {
 namespace {
 
 constexpr std::uint64_t SEED = 7;
-/// Of the mesh's diagonal: a probe's, and how far the farthest lies outside the bounding sphere.
+/// Shares of the mesh's diagonal: size of a probe, largest distance from the bounding sphere.
 constexpr double PROBE_SIZE = 0.02, FARTHEST = 0.5;
 
 }  // namespace

@@ -12,7 +12,7 @@ class SurfaceBuild : public HierarchyBuild {
   explicit SurfaceBuild(const Surface& surface) : mesh_(surface.mesh) {}
   void build() override { built_ = build_surface(mesh_); }
   void clear() override { built_.reset(); }
-  /// Nothing can be asked: its parts are there or not.
+  /// There is no query: its parts exist or not.
   double error_at(const BuildProbe&) override {
     return built_ && built_->face_normals.size() == mesh_.triangles.size() ? 0.0 : 1.0;
   }
@@ -24,7 +24,7 @@ class SurfaceBuild : public HierarchyBuild {
 
 }  // namespace
 
-/// Adjacency and normals, which both hierarchies of ours start from; a copy of the mesh is part of it.
+/// Adjacency and normals, from which both our hierarchies start, with a copy of the mesh.
 BuildImplementation surface_build() {
   return {"surface", 0.0, [](const Surface& surface) { return std::make_unique<SurfaceBuild>(surface); }};
 }

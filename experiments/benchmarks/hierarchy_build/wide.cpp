@@ -18,7 +18,7 @@ class WideBuild : public HierarchyBuild {
   explicit WideBuild(const Surface& surface) : surface_(surface) {}
   void build() override { hierarchy_ = build_wide_hierarchy(surface_); }
   void clear() override { hierarchy_ = {}; }
-  /// The nearest pair is an LMD, so it is among the pairs that a descent without a cutoff leaves.
+  /// The nearest pair is an LMD, so a descent without a cutoff keeps it.
   double error_at(const BuildProbe& probe) override {
     const Surface other = build_surface(probe.box);
     const WideHierarchy small = build_wide_hierarchy(other);
@@ -42,7 +42,7 @@ class WideBuild : public HierarchyBuild {
 
 }  // namespace
 
-/// That of `certified`: eight children, features with tight polar cones. Uses all cores.
+/// The hierarchy of `certified`: eight children, features with tight polar cones. Uses all cores.
 BuildImplementation wide_hierarchy_build() {
   return {"wide", 1e-9, [](const Surface& surface) { return std::make_unique<WideBuild>(surface); }};
 }

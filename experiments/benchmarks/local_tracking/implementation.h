@@ -9,14 +9,14 @@
 
 namespace lmdbench::experiments {
 
-/// Task "local tracking": the LMD set of a frame from that of the frame before. Methods that track begin with
-/// the same set, the true one, and track it until the next one comes, as often as the experiment's search
-/// brings one. The frames of those that search in every frame stand beside them.
+/// Task "local tracking": the LMD set of a frame from that of the frame before. Methods that track
+/// begin with the same true set and track it until the next one, as often as the experiment's
+/// search gives one. Frames of methods that search in every frame stand beside them.
 
 /// A method of the registry, with its default options.
 FrameImplementation tracking_implementation(const std::string& method);
 
-/// All methods but those that look at every pair of triangles.
+/// All methods except those that test every pair of triangles.
 std::vector<FrameImplementation> tracking_implementations();
 
 }  // namespace lmdbench::experiments

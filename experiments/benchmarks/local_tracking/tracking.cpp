@@ -16,8 +16,8 @@ class Tracking : public FrameLoop {
         renewal_(static_cast<std::size_t>(path.driver.search_every_frames)) {}
 
   void step(std::size_t frame) override {
-    // The set of the frame before: every tracking has a motion to follow. Copying it
-    // is timed too, once a renewal.
+    // The set of the frame before, so that every tracking has a motion to follow. Its copy is timed
+    // too, once a renewal.
     if (frame % renewal_ == 0) working_ = path_.lmds[frame == 0 ? 0 : frame - 1];
     method_->track(path_.poses()[frame], working_, counters_);
   }

@@ -16,14 +16,14 @@ namespace lmdbench::experiments {
 struct BinaryTest {
   WorldNode moving;
   const HierarchyNode* fixed = nullptr;
-  bool needed = false;  ///< Below both there is a true LMD.
+  bool needed = false;  ///< A true LMD is below both.
   std::size_t pose = 0;
 };
 
-/// Nodes from the root to the leaf of a triangle.
+/// For each triangle the nodes from the root to its leaf.
 std::vector<std::vector<std::int32_t>> paths_to_triangles(const Hierarchy& hierarchy);
 
-/// G1, G2 and G3 (paper, sections 3.2.1 and 4.1) over the node pairs of DualTraversal, in its order.
+/// G1, G2 and G3 (paper, sections 3.2.1 and 4.1) on the node pairs of DualTraversal in its order.
 template <DirectionTest TEST>
 class BinaryNodeTest : public NodeTest {
  public:
@@ -109,7 +109,7 @@ class BinaryNodeTest : public NodeTest {
   }
 
   Scene scene_;
-  std::vector<AboveLmd> above_lmds_;  ///< Of the pose that is recorded.
+  std::vector<AboveLmd> above_lmds_;  ///< At the recorded pose.
   std::vector<BinaryTest> tests_;
   std::vector<std::uint8_t> survives_;
 };

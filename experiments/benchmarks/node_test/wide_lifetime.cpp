@@ -4,8 +4,8 @@
 
 namespace lmdbench::experiments {
 
-/// Eight children at once, and for how many frames the rejections stand: what frame coherence pays for a test
-/// that it keeps. At rest, without a forecast.
+/// Eight children at once, and for how many frames their rejections are valid: the cost of a test
+/// that frame coherence keeps. At rest, without a forecast.
 NodeTestImplementation wide_lifetime_test() {
   const auto at_rest = [](const WideTest& t) { return WideLifetimeTest{false, {}, t.touch_lanes}; };
   return wide_node_test(

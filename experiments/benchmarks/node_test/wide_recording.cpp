@@ -61,7 +61,7 @@ std::uint32_t lanes_for_touch(const WideNode& node, WideRef probe) {
   return lanes;
 }
 
-/// Descends as find_wide_pairs does and keeps every test.
+/// Descends like find_wide_pairs and records every test.
 void record_pose(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                  const std::vector<LmdPaths>& lmds, std::size_t pose, std::vector<WideTest>& tests) {
   if (!query.possible) return;

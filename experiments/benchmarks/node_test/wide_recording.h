@@ -13,21 +13,21 @@
 
 namespace lmdbench::experiments {
 
-/// One child of a wide node against the eight of another, as a search meets it.
+/// A test of one child of a wide node against the eight of another, in a search.
 struct WideTest {
   const WideNode* node = nullptr;
   WideProbe probe{};
   WideLimits limits{};
-  std::uint32_t touch_lanes = 0;  ///< Lanes for which touching matters.
+  std::uint32_t touch_lanes = 0;  ///< Lanes for which touch matters.
   std::uint32_t used = 0;         ///< Lanes in use.
-  std::uint32_t needed = 0;       ///< Lanes below which, with the probe, there is a true LMD.
+  std::uint32_t needed = 0;       ///< Lanes below which, with the probe, a true LMD is.
   std::size_t pose = 0;
 };
 
-/// The tests of all poses. Needs the setting's bodies to live on.
+/// The tests of all poses. The setting's bodies must outlive them.
 std::vector<WideTest> record_wide_tests(const Setting& setting);
 
-/// A form of the wide node test over a recording.
+/// A form of the wide node test on a recording.
 /// @tparam Test      WideTest -> masks with `lmd` and `touch`
 /// @tparam Reference the same, slower and trusted
 template <class Test, class Reference>

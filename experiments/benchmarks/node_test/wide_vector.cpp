@@ -6,7 +6,7 @@
 
 namespace lmdbench::experiments {
 
-/// Eight children at once. Each call goes through the run-time dispatch, which a search pays once a query.
+/// Eight children at once; each call has the run-time dispatch that a search pays once a query.
 NodeTestImplementation wide_vector_test() {
   return wide_node_test(
       "wide-vector", [](const WideTest& t) { return test_lanes_vector(*t.node, t.probe, t.limits); },

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t PAIR_COUNT = 4096;
 
-/// Of the triangles' size, which is about 1.
+/// Relative to the triangles' size, which is about 1.
 constexpr double TOLERANCE = 1e-7;
 
 std::string objection(const PairFamily& family, const std::vector<double>& distances) {

@@ -20,8 +20,8 @@ struct PairFamily {
   std::size_t size() const { return a.size(); }
 };
 
-/// Task "triangle distance": the distances of many pairs. One implementation a file; the whole list is handed
-/// over, so that batched kernels fit.
+/// Task "triangle distance": the distances of many pairs. Each implementation has a file and
+/// receives the whole list, so that batched kernels fit.
 struct DistanceImplementation {
   std::string name;
   std::function<void(const PairFamily& pairs, std::span<double> distances)> run;
@@ -30,12 +30,12 @@ struct DistanceImplementation {
 DistanceImplementation lmdbench_scalar_distance();
 DistanceImplementation fcl_distance();
 
-/// All that this build knows.
+/// All implementations of this build.
 std::vector<DistanceImplementation> distance_implementations();
 
 /// Triangles with sides of about 1, in general position:
-///  - "random": independent, a few sizes apart, so kernels with early exits take them;
-///  - "near": 1 % of the size apart, as the leaf pairs that a search ends with.
+/// - "random": independent, a few sizes apart, so that kernels with early exits take them;
+/// - "near": 1 % of the size apart, like the leaf pairs at the end of a search.
 std::vector<PairFamily> pair_families(std::size_t count);
 
 }  // namespace lmdbench::experiments

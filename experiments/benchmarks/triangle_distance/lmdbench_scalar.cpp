@@ -8,7 +8,7 @@
 
 namespace lmdbench::experiments {
 
-/// The exact-form kernel of the program, one pair at a time, with its witness points and closest features.
+/// The program's exact-form kernel, pair by pair, with witness points and closest features.
 DistanceImplementation lmdbench_scalar_distance() {
   return {"lmdbench-scalar", [](const PairFamily& pairs, std::span<double> distances) {
             for (std::size_t i = 0; i < pairs.size(); ++i)

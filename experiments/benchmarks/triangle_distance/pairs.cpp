@@ -20,7 +20,7 @@ double reference_distance(const Triangle& a, const Triangle& b) {
   return static_cast<double>(testing::brute_force_distance(a, b));
 }
 
-/// Corners in a unit ball round the centre; slivers are drawn again, they are another benchmark's subject.
+/// Corners in a unit ball round the centre; slivers, another benchmark's subject, are redrawn.
 Triangle random_triangle(Random& random, const Vec3& centre) {
   for (;;) {
     Triangle triangle;
@@ -35,8 +35,8 @@ TrianglePair random_pair(Random& random) {
           random_triangle(random, random.uniform(2.0, 5.0) * random.direction())};
 }
 
-/// Pushes b towards a until the gap is left, by conservative advancement along the line of centres. Lines on
-/// which the triangles pass each other are drawn again.
+/// Moves b towards a to a distance of GAP, by conservative advancement along the line of centres.
+/// Lines on which the triangles miss each other are redrawn.
 TrianglePair near_pair(Random& random) {
   constexpr double GAP = 0.01;
   for (;;) {

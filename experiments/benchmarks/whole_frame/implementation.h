@@ -10,10 +10,10 @@
 
 namespace lmdbench::experiments {
 
-/// Task "whole frame": all that a haptic frame costs, from the pose to the force of the device. Methods that
-/// track locally search and track as the experiment configures it; their searches are spread over the frames
-/// between two of them, as if one core did everything. Peers outside the registry find a nearest pair and
-/// make no force.
+/// Task "whole frame": the whole cost of a haptic frame, from the pose to the force of the device.
+/// Methods with local tracking search and track as the experiment configures them; their searches
+/// are spread over the frames between two of them, as if one core did everything. Peers outside the
+/// registry find a nearest pair and make no force.
 
 /// A method of the registry, as the experiment configures it or with its default options.
 FrameImplementation method_frame(const std::string& method);
@@ -21,13 +21,13 @@ FrameImplementation method_frame(const std::string& method);
 FrameImplementation fcl_cold_frame();
 FrameImplementation fcl_warm_frame();
 
-/// All that this build knows.
+/// All implementations of this build.
 std::vector<FrameImplementation> frame_implementations();
 
-/// A search in every frame, and the force of what it finds.
+/// A search in every frame, and the force of its set.
 FrameImplementation rendered_search(const SearchImplementation& search);
 
-/// A method by its name, with local tracking and a search now and then, and the force.
+/// A method by its name: local tracking, periodic searches, and the force.
 FrameImplementation rendered_tracking(const std::string& method);
 
 }  // namespace lmdbench::experiments

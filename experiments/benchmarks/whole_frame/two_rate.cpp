@@ -26,7 +26,7 @@ class TwoRateLoop : public FrameLoop {
     return &reported_;
   }
 
-  // As observer of the clock: the frame is timed as a whole.
+  // As observer of the clock it does nothing: the frame is timed as a whole.
   void search_starts(std::int64_t) {}
   template <typename Work>
   void run(Stage, Work&& work) {

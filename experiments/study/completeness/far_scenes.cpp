@@ -25,8 +25,8 @@ struct Shape {
   TriangleMesh (*make)();
 };
 
-/// Smooth, sharp, flat, thin, reflex, unequal and open, of about the size 1 and few triangles, so that
-/// `exhaustive` keeps up where all pairs are within the cutoff.
+/// Smooth, sharp, flat, thin, reflex, unequal and open shapes of about the size 1. They have few
+/// triangles, because `exhaustive` is slow where all pairs are within the cutoff.
 constexpr std::array<Shape, 9> SHAPES = {{
     {"blob", [] { return make_blob(0.5, 0.15, 1); }},
     {"torus", [] { return make_torus(0.35, 0.15, 6, 5); }},
@@ -54,14 +54,14 @@ const char* name_of(FarCarrier carrier) {
   return NAMES.at(static_cast<std::size_t>(carrier));
 }
 
-/// A rotation that is anything, or all but parallel to the axes: flat faces and edges meet flat ones.
+/// Any rotation, or one almost parallel to the axes, so that flat faces and edges face flat ones.
 Eigen::Quaterniond random_rotation(bool parallel, Random& random) {
   if (!parallel) return random.rotation();
   const Eigen::AngleAxisd tilt(logarithmic(random, 1e-12, 1e-2), random.direction());
   return Eigen::Quaterniond(tilt).normalized();
 }
 
-/// A pose at the gap from the fixed body; near the origin and of size 1.
+/// A pose at the gap from the fixed body. Both are near the origin and of size 1.
 Pose near_pose(const Body& moving, const Body& fixed, double gap, bool parallel, Random& random) {
   Pose pose;
   pose.rotation = random_rotation(parallel, random);
@@ -71,7 +71,7 @@ Pose near_pose(const Body& moving, const Body& fixed, double gap, bool parallel,
                        fixed.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
             .reach;
     pose.translation = reach * way;
-    if (std::isfinite(reach)) return pose;  // Another way where a line passes through a hole.
+    if (std::isfinite(reach)) return pose;  // A line may pass through a hole.
   }
 }
 
@@ -88,7 +88,7 @@ std::vector<Pose> near_poses(const Body& moving, const Body& fixed, double gap, 
 }  // namespace
 
 FarScene make_far_scene(std::uint64_t seed, std::size_t index) {
-  // Far from each other, so that no two scenes draw the same numbers.
+  // Seeds are spread so that no two scenes draw the same numbers.
   Random random(seed * 0x9E3779B97F4A7C15ULL + index);
   const auto pick = [&](std::size_t count) {
     return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
@@ -97,7 +97,7 @@ FarScene make_far_scene(std::uint64_t seed, std::size_t index) {
   const auto carrier = static_cast<FarCarrier>(pick(3));
   const bool drifts = random.uniform() < 0.5;
   const double size = logarithmic(random, SMALLEST_FAR_SIZE, LARGEST_FAR_SIZE);
-  // Directions count beyond 1e-9 of the offset: many sizes of the smallest scenes.
+  // Directions only matter beyond 1e-9 of the offset: many sizes of the smallest scenes.
   const double gap = logarithmic(random, 1e-4, 100.0), cutoff = gap * logarithmic(random, 1.01, 3.0);
   const bool parallel = random.uniform() < 0.4;
   const Vec3 offset = random.direction();

@@ -16,12 +16,12 @@ namespace {
 using experiments::Random;
 using parts::power_of_ten;
 
-/// An integer of a range, both ends included.
+/// A random integer from `low` to `high`, both included.
 int between(int low, int high, Random& random) {
   return low + static_cast<int>(random.index(static_cast<std::size_t>(high - low + 1)));
 }
 
-/// Triangles between few points of a coarse lattice: they share points by chance, lie in one plane, cross, have no area.
+/// Triangles between few points of a coarse lattice: many share points, cross or have no area.
 TriangleMesh soup(Random& random) {
   TriangleMesh mesh;
   const int vertices = between(3, 14, random), bits = between(1, 4, random);
@@ -93,7 +93,7 @@ Vec3& point(TriangleMesh& mesh, std::int32_t vertex) {
   return mesh.vertices[static_cast<std::size_t>(vertex)];
 }
 
-/// Something that befalls a mesh.
+/// A change that breaks a mesh.
 struct Mishap {
   const char* name;
   void (*happen)(TriangleMesh& mesh, Random& random);
@@ -165,7 +165,7 @@ constexpr std::array<Mishap, 16> MISHAPS = {{
      }},
     {"taken apart",
      [](TriangleMesh& mesh, Random& random) {
-       // Some triangles have corners of their own, at the same places.
+       // Some triangles get corners of their own, at the same places.
        const double share = random.index(2) == 0 ? 1.0 : 0.3;
        for (auto& corners : mesh.triangles) {
          if (!(random.uniform() < share)) continue;

@@ -16,10 +16,10 @@ struct HostileMesh {
   std::string history;
 };
 
-/// A small generated shape, a grid or a soup of triangles on a lattice, of about the size 1, to which up to three of these were
-/// done: vertices jittered, squashed into a plane, rounded to floats or to a lattice, brought together, taken apart or pulled
-/// away; triangles there twice, turned over, left out, halved without their neighbour, or a third one at an edge; its own copy
-/// merged into it. What it is depends on the random numbers alone.
+/// A small generated shape, a grid or a soup of triangles on a lattice, of about the size 1,
+/// changed up to three times. Vertices: jittered, squashed to a plane, rounded, merged, split,
+/// pulled away. Triangles: doubled, flipped, removed, halved alone, a third at an edge. Or a copy
+/// is merged into it. Depends on the random numbers alone.
 HostileMesh make_hostile_mesh(experiments::Random& random);
 
 }  // namespace lmdbench::completeness

@@ -24,7 +24,7 @@ using experiments::Random;
 using parts::chance;
 using parts::power_of_ten;
 
-/// Nothing, a tiny turn, quarter turns or any: flat faces and edges meet flat ones.
+/// No turn, a tiny one, quarter turns or any turn, so that flat faces and edges face flat ones.
 Eigen::Quaterniond some_rotation(Random& random) {
   const double kind = random.uniform();
   if (kind < 0.25) return Eigen::Quaterniond::Identity();
@@ -45,10 +45,10 @@ Vec3 some_direction(Random& random) {
   return random.direction();
 }
 
-/// Two meshes amid their frames, and where one comes to be relative to the other.
+/// Two meshes near their frames' origins; draws a pose of one relative to the other.
 class Start {
  public:
-  /// @param size  of the smaller one, the moving one [m]
+  /// @param size  of the moving mesh, the smaller one [m]
   Start(const TriangleMesh& moving, const TriangleMesh& fixed, double size, double cutoff)
       : moving_("moving", build_surface(moving)),
         fixed_("fixed", build_surface(fixed)),
@@ -61,7 +61,7 @@ class Start {
     Pose pose;
     pose.rotation = some_rotation(random);
     const double kind = random.uniform();
-    if (kind < 0.15) {  // On the same place.
+    if (kind < 0.15) {  // Both at the same place.
       pose.translation = chance(0.4, random)
                              ? Vec3::Zero()
                              : Vec3(size_ * power_of_ten(-16.0, -1.0, random) * some_direction(random));
@@ -79,7 +79,7 @@ class Start {
           first_approach(moving_.surface(), moving_.prepared<Hierarchy>(), fixed_.surface(),
                          fixed_.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
               .reach;
-      if (!std::isfinite(reach)) continue;  // A line that passes.
+      if (!std::isfinite(reach)) continue;  // The line misses the fixed mesh.
       pose.translation = reach * way;
       if (chance(0.2, random)) pose.translation -= cutoff_ * power_of_ten(-9.0, 1.0, random) * way;
       break;
@@ -98,7 +98,7 @@ Pose turned(Pose pose, double angle, const Vec3& axis) {
   return pose;
 }
 
-/// Appends `count` frames of one motion; the first where the last one was, if there is one.
+/// Appends `count` frames of one motion, which starts at the last pose if there is one.
 void append_frames(Motion motion, std::size_t count, const Start& start, Random& random,
                    std::vector<Pose>& poses) {
   const double turn = power_of_ten(-9.0, -1.5, random), spin = chance(0.5, random) ? 0.0 : turn;
@@ -172,7 +172,7 @@ const char* name_of(Motion motion) {
 }
 
 GeneratedScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index) {
-  // Far from each other, so that no two scenes draw the same numbers.
+  // Seeds are spread so that no two scenes draw the same numbers.
   Random random((seed * std::size(ALL_MOTIONS) + static_cast<std::uint64_t>(motion)) * 0x9E3779B97F4A7C15ULL +
                 index);
   const HostileMesh fixed = make_hostile_mesh(random);

@@ -22,8 +22,8 @@ const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
   return found == set.end() ? nullptr : &*found;
 }
 
-/// LMDs beyond one a feature pair. What two features share where they intersect is one apart: it may be named after a pair that
-/// is an LMD elsewhere.
+/// LMDs beyond the first of a feature pair. Intersecting LMDs are counted apart: their feature pair
+/// may carry an LMD elsewhere.
 std::size_t duplicates(const LmdSet& set) {
   LmdSet apart, touching;
   for (const Lmd& lmd : set) (lmd.intersecting ? touching : apart).push_back(lmd);
@@ -65,7 +65,7 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
                          diagonal;
     result.worst_distance_difference = std::max(result.worst_distance_difference, distance);
     result.worst_point_difference = std::max(result.worst_point_difference, point);
-    // Written so that NaN objects.
+    // Written so that NaN fails.
     if (!(distance <= POSITION_TOLERANCE &&
           point <= (lmd.intersecting ? CROSSING_TOLERANCE : POSITION_TOLERANCE)))
       object(fmt::format("{}: distance off by {:.2g}, points by {:.2g} of the diagonal", describe(lmd),

@@ -9,18 +9,18 @@
 
 namespace lmdbench::completeness {
 
-/// Distances and points that differ by more than this, relative to the diagonal, are different ones: some
-/// thousand roundings of a coordinate.
+/// Distances and points differ when they are farther apart than this, relative to the diagonal:
+/// some thousand roundings of a coordinate.
 inline constexpr double POSITION_TOLERANCE = 1e-12;
 
-/// The same for what intersecting triangles share: a crossing is found to 1e-11 of the triangles (certified/PROOF.md, lemma 11).
+/// The same where triangles intersect: crossings are found to 1e-11 (certified/PROOF.md, lemma 11).
 inline constexpr double CROSSING_TOLERANCE = 1e-11;
 
 /// How far reported LMD sets are from the true ones, summed over poses.
 struct Judgement {
   Agreement same;              ///< Same features.
   Agreement neighbours;        ///< Neighbouring features count.
-  std::size_t duplicates = 0;  ///< LMDs beyond one a feature pair.
+  std::size_t duplicates = 0;  ///< LMDs beyond the first of a feature pair.
   std::size_t poses = 0;
   std::size_t wrong_poses = 0;             ///< Poses with anything wrong.
   double worst_distance_difference = 0.0;  ///< Over matched pairs, relative to the diagonal.
@@ -31,7 +31,7 @@ struct Judgement {
 
 /// Compares one pose's sets.
 /// @param diagonal  scale of the differences [m]
-/// @param objection receives what is wrong, in words with features and distances; empty when nothing is
+/// @param objection receives the differences with features and distances; empty when there are none
 Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene, double diagonal,
                 std::string& objection);
 

@@ -39,8 +39,8 @@ ScenePair moved(const ScenePair& pair, Random& random, double& /*scale*/) {
   return result;
 }
 
-/// Both frames turned by a signed permutation, which is exact. What follows is not: sums of three products are taken in the order of
-/// the axes.
+/// Both frames turned by a signed permutation. That is exact, but later sums of three products are
+/// taken in another order.
 ScenePair quarter_turned(const ScenePair& pair, Random& random, double& /*scale*/) {
   Mat3 turn = Mat3::Zero();
   const auto shift = static_cast<Eigen::Index>(random.index(3));
@@ -75,7 +75,7 @@ ScenePair both(const ScenePair& pair, Random& random, double& /*scale*/) {
   return result;
 }
 
-/// A new vertex between two or three of a triangle's; those between the same two are one.
+/// Adds a vertex between two or three of a triangle's. The same vertices always get the same one.
 class NewVertices {
  public:
   explicit NewVertices(TriangleMesh& mesh) : mesh_(mesh) {}
@@ -135,7 +135,7 @@ void append(TriangleMesh& mesh, const TriangleMesh& other) {
   for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
-/// A box more in each mesh, on either side of both.
+/// Adds a box to each mesh, far from both, on opposite sides.
 ScenePair with_far_parts(const ScenePair& pair, Random& random, double& /*scale*/) {
   ScenePair result = pair;
   const Eigen::AlignedBox3d all = world_box(pair.moving, pair.X_WM).merged(world_box(pair.fixed, {}));
@@ -151,7 +151,7 @@ ScenePair with_far_parts(const ScenePair& pair, Random& random, double& /*scale*
   return result;
 }
 
-/// Without triangles that are far from the other mesh; vertices stay.
+/// Without the triangles that are far from the other mesh; vertices stay.
 ScenePair without_far_triangles(const ScenePair& pair, Random& /*random*/, double& /*scale*/) {
   ScenePair result = pair;
   for (const bool moving : {true, false}) {
@@ -189,15 +189,15 @@ double largest_coordinate(const ScenePair& pair) {
   return largest;
 }
 
-/// The definition's lengths (DEFINITION.md, "In floating-point numbers"), each at its larger.
+/// The definition's lengths (DEFINITION.md, "In floating-point numbers"), the larger of each.
 constexpr double ROUNDING = 128.0 * std::numeric_limits<double>::epsilon(), KNOWN = 1e-9;
-/// Of tolerances that are tried where answers differ.
+/// Factors of the tolerances that are tried where answers differ.
 constexpr double WIDER[] = {1.0, 1.5, 4.0};
-/// A distance down to so many roundings may be that of intersecting triangles.
+/// Distances up to so many roundings may belong to intersecting triangles.
 constexpr double TOUCHING = 2.0;
 
-/// The pair with a vertex more in each mesh, of no triangle, so that its largest coordinates are `factor` times those of a mesh like
-/// `like`, `scale` times as large: the lengths of the definition are shares of them.
+/// Adds an unused vertex to each mesh, so that its largest coordinate, over `scale`, is `factor`
+/// times that of the mesh in `like`: the definition's lengths are shares of it.
 ScenePair grown_like(const ScenePair& pair, const ScenePair& like, double scale, double factor) {
   ScenePair result = pair;
   const auto grow = [&](TriangleMesh& mesh, const TriangleMesh& other) {
@@ -283,7 +283,7 @@ Difference compare(const ScenePair& pair, const LmdSet& a, const LmdSet& b, doub
              return std::abs(open - distance) <= 2.0 * width;
            });
   };
-  // Both ascend.
+  // Both lists ascend.
   for (auto x = distances[0].begin(), y = distances[1].begin();
        x != distances[0].end() || y != distances[1].end();) {
     const bool first_alone = y == distances[1].end() || (x != distances[0].end() && *x < *y - width);
@@ -298,7 +298,7 @@ Difference compare(const ScenePair& pair, const LmdSet& a, const LmdSet& b, doub
     x += first_alone || !second_alone;
     y += second_alone || !first_alone;
   }
-  // Where nothing intersects, contacts at 0 are contacts like others.
+  // Without intersections, contacts at distance 0 are like any others.
   const auto open_ones = std::ranges::count_if(
       pair.open, [&](double distance) { return distance <= 2.0 * TOUCHING * widths.rounding; });
   const bool differ_by_open = std::abs(touching[0] - touching[1]) <= open_ones;
@@ -320,7 +320,7 @@ MetamorphicCounts judge_change(const ScenePair& pair, const LmdSet& truth, const
       2.0 * std::max({KNOWN * largest, pair.moving.planar_tolerance, pair.fixed.planar_tolerance});
   const Widths widths{ROUNDING * largest, pair.is_level ? 0.0 : known};
   Difference difference = compare(pair, truth, answer, scale, widths);
-  // A tie of a tolerance: with wider ones both give one answer.
+  // It is a tie of a tolerance if both sets are the same once both have the wider tolerance.
   for (const double factor : WIDER) {
     if (!difference.differs) break;
     const LmdSet before = set_of("exhaustive", grown_like(pair, changed, scale, factor));

@@ -13,17 +13,17 @@
 #include <string>
 #include <vector>
 
-/// What may be done to two meshes and a pose without another answer: the distances of the LMDs stay, and how many there are.
+/// Changes of two meshes and a pose that keep the distances and the number of the LMDs.
 namespace lmdbench::completeness {
 
-/// Two meshes and a pose of one.
+/// Two meshes and a pose of the moving one.
 struct ScenePair {
   TriangleMesh moving, fixed;
   Pose X_WM;
   double cutoff = 0.0;  ///< [m]
-  /// Distances at which an LMD may be or not, by design: ways lead down from there within rounding [m].
+  /// Distances [m] of contacts that are LMDs or not by rounding: the design leaves them open.
   std::vector<double> open;
-  /// Whether planes are parallel to rounding or not at all: then the distances of extended contacts are known to that, too.
+  /// Planes are parallel up to rounding or not at all; extended contacts' distances are as exact.
   bool is_level = false;
 };
 
@@ -33,38 +33,37 @@ ScenePair pair_of(const parts::RestScene& scene);
 
 struct Change {
   const char* name;
-  bool
-      keeps_bits;  ///< Every operation of the methods rounds as before, so that distances are the same bits but for the scale.
-  /// @param scale receives what lengths were multiplied by
+  bool keeps_bits;  ///< Operations round alike: distances keep their bits.
+  /// @param scale receives the factor of all lengths
   ScenePair (*make)(const ScenePair& pair, experiments::Random& random, double& scale);
 };
 std::span<const Change> metamorphic_changes();
 
-/// How the sets of a pair and of its change differ.
+/// How the set of a pair differs from that of the changed pair.
 struct Difference {
   bool differs = false;
   bool bits_differ = false;
-  /// Something that the definition leaves open: how many contacts intersecting triangles have, an LMD within rounding of the cutoff or at
-  /// a distance that is open by design, or another answer because the lengths of the definition, which are shares of the coordinates, have
-  /// grown. Everything else is compared all the same.
+  /// The definition leaves it open: the number of contacts of intersecting triangles, an LMD within
+  /// rounding of the cutoff or at an open distance, or one that hangs on the definition's
+  /// tolerances, which grew with the coordinates. All else is still compared.
   bool tie = false;
 };
 
-/// What distances may be apart.
+/// Allowed differences of distances.
 struct Widths {
-  double rounding;  ///< Of all [m].
-  double known;     ///< Of edges and faces, as well [m].
+  double rounding;  ///< Of every distance [m].
+  double known;     ///< In addition where two edges or faces are in contact [m].
 };
 
-/// @param pair of which `a` is the set
-/// @param b of the changed pair; its lengths are `scale` times those of `a`
+/// @param pair its set is `a`
+/// @param b set of the changed pair; its lengths are `scale` times those of `a`
 Difference compare(const ScenePair& pair, const LmdSet& a, const LmdSet& b, double scale,
                    const Widths& widths);
 
-/// Over many pairs.
+/// Sums over many pairs.
 struct MetamorphicCounts {
   std::size_t pairs = 0, different = 0, bits_different = 0, ties = 0;
-  std::size_t incomplete = 0;  ///< Changed pairs of which `certified` has other distances than `exhaustive`.
+  std::size_t incomplete = 0;  ///< Changed pairs for which `certified` and `exhaustive` differ.
 
   MetamorphicCounts& operator+=(const MetamorphicCounts& other);
   bool is_wrong(const Change& change) const {
@@ -72,12 +71,12 @@ struct MetamorphicCounts {
   }
 };
 
-/// Changes a pair and compares; `objection` receives both sets where something is wrong.
+/// Changes a pair and compares; `objection` receives both sets when they differ.
 /// @param truth the set of `exhaustive` for the pair
 MetamorphicCounts judge_change(const ScenePair& pair, const LmdSet& truth, const Change& change,
                                experiments::Random& random, std::string& objection);
 
-/// The set of a method.
+/// The set that a method finds for the pair.
 LmdSet set_of(const char* method, const ScenePair& pair);
 
 }  // namespace lmdbench::completeness

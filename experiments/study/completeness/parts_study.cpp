@@ -24,7 +24,7 @@ std::string upper_case(std::string text) {
   return text;
 }
 
-/// Kinds, distances and places, for a person who looks for the difference.
+/// Kinds, distances and places, for a person who looks for a difference.
 std::string contacts_text(const LmdSet& lmds) {
   std::string text;
   for (const Lmd& lmd : lmds)

@@ -20,7 +20,7 @@ namespace {
 
 using experiments::Random;
 
-/// Metres.
+/// [m]
 constexpr double THICKNESS = 0.1, PLATE_GAP = 1e-3, PLATE_CUTOFF = 0.02;
 const Vec3 MOVING_SIZE(1.0, 1.0, THICKNESS), FIXED_SIZE(1.3, 0.9, THICKNESS);
 
@@ -29,7 +29,7 @@ ConvexPolygon rectangle(const Vec3& size) {
   return ConvexPolygon({{-x, -y}, {x, -y}, {x, y}, {-x, y}});
 }
 
-/// Where the two rectangles overlap, in the frame of the design.
+/// The overlap of the two rectangles in the frame of the design.
 ConvexPolygon designed_overlap(const Pose& X_DA) {
   ConvexPolygon moving = rectangle(MOVING_SIZE);
   for (Vec2& corner : moving.corners)
@@ -48,7 +48,7 @@ double diameter_of(const ConvexPolygon& polygon) {
 
 RoundedPlates judge_rounded_plates(int cells, std::uint64_t seed, std::size_t poses,
                                    const Complain& complain) {
-  /// Poses of one pair of files, so that many roundings are met and not all the time goes into making meshes.
+  /// Poses a pair of meshes: few, for many different roundings; meshes take long to make.
   constexpr std::size_t POSES_A_PAIR = 10;
   Random random(seed * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(cells));
   RoundedPlates result;

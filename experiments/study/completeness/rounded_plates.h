@@ -10,24 +10,24 @@
 
 namespace lmdbench::completeness {
 
-/// What `certified` makes of two plates whose coordinates were rounded to single precision, each turned and moved on
-/// its own: by design one contact of known place and direction.
+/// `certified` on two plates whose coordinates were rounded to single precision, each turned and
+/// moved on its own. By design they have one contact of known place and direction.
 struct RoundedPlates {
   std::size_t triangles = 0;  ///< Of each plate.
   std::size_t poses = 0;
   std::size_t one_lmd = 0;       ///< Poses with exactly one LMD.
-  double worst_point = 0.0;      ///< From the centroid of the designed overlap, as a share of its diameter.
-  double worst_direction = 0.0;  ///< From the designed normal [rad].
-  std::vector<double> seconds;   ///< Of each search, from scratch; processor time.
+  double worst_point = 0.0;      ///< From the designed overlap's centroid, over its diameter.
+  double worst_direction = 0.0;  ///< Angle from the designed normal [rad].
+  std::vector<double> seconds;   ///< Processor time of each search from scratch.
 };
 
-/// Unrelated poses of plates of `cells` by `cells` squares.
+/// Judges unrelated poses of plates of `cells` by `cells` squares.
 RoundedPlates judge_rounded_plates(int cells, std::uint64_t seed, std::size_t poses,
                                    const Complain& complain);
 
-/// Squares a side of the plates that are looked at: 96 to 16,896 triangles.
+/// Squares along a side of the judged plates, which have 96 to 16,896 triangles.
 inline constexpr int ROUNDED_PLATE_CELLS[] = {4, 16, 32, 64};
-/// What the point and the direction may be off.
+/// Largest allowed errors of the point and the direction.
 inline constexpr double ROUNDED_POINT_SHARE = 0.01, ROUNDED_DIRECTION_RAD = 1e-6;
 
 }  // namespace lmdbench::completeness

@@ -23,7 +23,7 @@ std::unique_ptr<Method> make_certified(const Scene& scene) {
   });
 }
 
-/// A line of a TUM file.
+/// The pose as a line of a TUM file.
 std::string pose_line(const Pose& pose, double time) {
   return tum_text({{time, pose}});
 }
@@ -41,8 +41,7 @@ const std::vector<Variant>& variants() {
 
 std::vector<CutoffResult> judge_poses(Scene scene, double diagonal, const std::vector<double>& cutoffs,
                                       const std::vector<Pose>& poses, const Complain& complain) {
-  // An LMD does not depend on the cutoff, only whether it counts: the largest
-  // cutoff's truth holds the others'.
+  // The cutoff only decides whether an LMD counts: the truth of the largest contains the others.
   scene.cutoff = *std::max_element(cutoffs.begin(), cutoffs.end()) * diagonal;
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
   std::vector<CutoffResult> results;

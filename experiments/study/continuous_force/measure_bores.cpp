@@ -17,7 +17,7 @@ namespace {
 constexpr double ROD = 0.010, BORE = 0.0103, BORE_CUTOFF = 0.001;
 constexpr double OFF = 0.15 * BORE_CUTOFF;
 
-/// Of the corners of a regular polygon as large as a circle: a coarser one would have another gap.
+/// Corner radius of a regular polygon with the circle's area: the gap does not depend on `corners`.
 double corner_radius(double circle, int corners) {
   const double angle = 2.0 * std::numbers::pi / corners;
   return circle * std::sqrt(angle / std::sin(angle));
@@ -68,7 +68,7 @@ std::vector<BoreRow> measure_bores(std::size_t rolls, std::size_t slope_steps, c
       row.mean[law] = mean;
       row.deviation[law] = std::sqrt(spread / static_cast<double>(rolls));
     }
-    // Through the middle, a little beside the axis.
+    // Across the bore's axis, just beside it.
     const double step = 0.04 * BORE_CUTOFF / static_cast<double>(slope_steps);
     std::optional<Forces> before;
     for (std::size_t k = 0; k <= slope_steps; ++k) {

@@ -32,7 +32,7 @@ std::vector<DragRow> measure_drag(const std::filesystem::path& file, std::size_t
   std::vector<DragRow> rows;
   for (const double stiffness : {300.0, 600.0, 1200.0, 2400.0}) {
     DragRow row{stiffness, 0, 0, zeros(layered), zeros(layered)};
-    // The same spots and ways for every stiffness.
+    // The same spots and directions for every stiffness.
     experiments::Random random(seed);
     const double force_of_one = stiffness * profile.cutoff;
     while (row.spots < spots) {
@@ -80,7 +80,7 @@ std::vector<DragRow> measure_drag(const std::filesystem::path& file, std::size_t
         noise[law] = std::sqrt(square / count) / push;
         jump[law] = largest / push;
       }
-      // What a law lets touch says nothing of its force.
+      // Once the meshes touch under a law, its force tells nothing.
       if (through) {
         ++row.through;
         continue;

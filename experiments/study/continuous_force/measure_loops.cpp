@@ -39,7 +39,7 @@ LoopRow measure_loops(const PathScene& scene, std::size_t loops, std::size_t ste
       for (std::size_t law = 0; law < LAWS; ++law) work[law] += here.force[law].dot(next - last);
       last = next;
     }
-    // In contact all the time apart, and with something that is born or dies.
+    // Only loops without intersections count, and only if minima merge along them.
     if (touches || !pushes) continue;
     ++row.loops;
     for (std::size_t law = 0; law < LAWS; ++law) {
@@ -91,7 +91,7 @@ std::vector<CostRow> measure_cost(const PathScene& scene, std::size_t poses, std
       const auto times = experiments::time_interleaved(tasks, count, repetitions);
       for (std::size_t task = 0; task < tasks.size(); ++task) seconds[task] = times[task];
     } else {
-      // Each runs along the path of its own; they take turns frame by frame, so that all meet the same machine.
+      // Each runs along its own poses; they take turns frame by frame, so that all see one load.
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t task = 0; task < tasks.size(); ++task) {
           const std::size_t turn = (task + i) % tasks.size();

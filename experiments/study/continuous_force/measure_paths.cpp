@@ -14,14 +14,14 @@ namespace lmdbench::continuous_force {
 
 namespace {
 
-/// Rounding of a force that is a sum of pushes.
+/// Rounding error of a force that is a sum of pushes.
 constexpr double CONE_ROUNDING = 1e-9;
 constexpr int DIVISION = 10, DIVISIONS = 6;
-/// Steps of a thousandth of a frame.
+/// Divisions by 10 that make steps of a thousandth of a frame.
 constexpr std::size_t STEEP_DIVISION = 3;
 constexpr double UNSET = std::numeric_limits<double>::quiet_NaN();
 
-/// Whether a force is a sum of pushes along -direction of minima: of at most three of them, if of any (Caratheodory).
+/// Whether a force is a sum of pushes along -direction of minima; three suffice (Caratheodory).
 bool lies_in_cone(const Vec3& force, const CriticalSet& critical) {
   if (force.norm() <= CONE_ROUNDING) return true;
   std::vector<Vec3> pushes;
@@ -52,7 +52,7 @@ double step_of(const Forces& a, const Forces& b, std::size_t law) {
   return (b[law] - a[law]).norm();
 }
 
-/// What each critical pair adds to a step, largest first; those that are there at one end alone with what they have there.
+/// Change of each critical pair in a step, largest first; its force if it is at one end alone.
 std::vector<PairChange> changes_of_pairs(const CriticalSet& before, const CriticalSet& after,
                                          const ForceProfile& profile) {
   const auto force_of = [&](const CriticalPair& c) -> Vec3 {
@@ -81,7 +81,7 @@ std::vector<PairChange> changes_of_pairs(const CriticalSet& before, const Critic
   return changes;
 }
 
-/// Divides a stretch of the path again and again at its largest step; notes the largest step of each division.
+/// Divides the path again and again at its largest step; notes each division's largest step.
 void refine(Renderer& renderer, const Pose& from, const Pose& to, std::size_t law, int left,
             PathRow::Law& own) {
   if (left == 0) return;
@@ -166,7 +166,7 @@ EventRow measure_events(const PathScene& scene, std::size_t most, double shortes
   Forces before = renderer.at(scene.poses.front()).force;
   for (std::size_t i = 0; i + 1 < scene.poses.size() && row.events < most; ++i) {
     const Forces after = renderer.at(scene.poses[i + 1]).force;
-    // A step of the plain sum that the continuous law does not take: a birth or a death.
+    // A step of the plain sum, but not of the continuous law: a birth or a death.
     const bool event = step_of(before, after, SUM) > 0.1 &&
                        step_of(before, after, SIGNED) < 0.5 * step_of(before, after, SUM);
     if (event) {

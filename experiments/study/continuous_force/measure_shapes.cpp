@@ -23,7 +23,7 @@ std::shared_ptr<const Body> body_of(TriangleMesh mesh) {
   return std::make_shared<const Body>("mesh", build_surface(std::move(mesh)));
 }
 
-/// Every triangle in four, in its plane.
+/// Cuts every triangle into four in its plane.
 TriangleMesh cut_in_four(const TriangleMesh& mesh) {
   TriangleMesh cut;
   cut.vertices = mesh.vertices;
@@ -51,7 +51,7 @@ TriangleMesh rounded_to_floats(TriangleMesh mesh) {
   return mesh;
 }
 
-/// The inside of a sphere in a block: a spherical cavity, closed by a box round it.
+/// A block with a spherical cavity, whose wall is the surface to touch.
 TriangleMesh spherical_cavity(double radius, int subdivisions) {
   TriangleMesh cavity = make_sphere(radius, subdivisions);
   for (auto& t : cavity.triangles) std::swap(t[1], t[2]);
@@ -145,7 +145,7 @@ std::vector<CupRow> measure_cups(std::uint64_t seed) {
 }
 
 std::vector<NotchRow> measure_notches() {
-  // A V between two thick wings, opened upwards, and a slender spindle that points down into it.
+  // A V between two thick wings, open upwards, and a slender spindle that points down into it.
   constexpr double CUTOFF = 0.1, APART = 0.02 * CUTOFF;
   const ForceProfile profile = {
       .law = ForceLaw::LINEAR, .cutoff = CUTOFF, .saturation_distance = 0.0, .maximum_force = 1.0};
@@ -165,7 +165,7 @@ std::vector<NotchRow> measure_notches() {
       block.triangles.push_back({k, n + k, next});
       block.triangles.push_back({next, n + k, n + next});
     }
-    // Ends: the two wings and the base, each convex; the profile is counter-clockwise seen against y.
+    // Ends: the wings and the base, each convex; seen against y the profile is counter-clockwise.
     for (const auto& t : {std::array<std::int32_t, 3>{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {0, 4, 6}, {4, 5, 6}}) {
       block.triangles.push_back({t[0], t[1], t[2]});
       block.triangles.push_back({n + t[0], n + t[2], n + t[1]});

@@ -18,7 +18,7 @@ namespace {
 struct EulerSolid {
   std::string name;
   std::shared_ptr<const Body> body;
-  int euler;  ///< Components less tunnels.
+  int euler;  ///< Euler number: components less tunnels.
 };
 
 EulerSolid euler_solid(std::string name, TriangleMesh mesh, int euler) {
@@ -56,7 +56,7 @@ std::vector<SumRow> measure_sums(std::size_t poses, std::uint64_t seed, bool exh
   std::vector<std::string> methods{"certified"};
   if (exhaustive_too) methods.emplace_back("exhaustive");
   std::vector<SumRow> rows;
-  // Each with the next one.
+  // Each solid with the next one.
   for (std::size_t a = 0; a < solids.size(); ++a)
     for (const std::size_t b : {(a + 1) % solids.size()})
       for (const std::string& method_name : methods) {

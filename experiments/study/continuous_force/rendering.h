@@ -16,26 +16,26 @@
 #include <string>
 #include <vector>
 
-/// What the laws of force/aggregation.h make of the same critical pairs.
+/// The forces that the laws of force/aggregation.h make of the same critical pairs.
 namespace lmdbench::continuous_force {
 
 /// Laws, in the order of `aggregations()`.
 inline constexpr std::size_t SUM = 0, SIGNED = 1, SHARED = 2, LAYERED = 3, LAWS = 4;
 using Forces = std::array<Vec3, LAWS>;
-/// Where numbers of the laws begin to be summed up: NaN for `layered` where it is not measured.
+/// Zero for each law, the start of a sum; NaN for `layered` where it is not measured.
 std::array<double, LAWS> zeros(bool layered);
 
 struct Rendered {
-  Forces force;  ///< In units of one LMD's largest force; NaN for `layered` where it was not asked for.
+  Forces force;          ///< In units of one LMD's largest force; NaN where not computed.
   CriticalSet critical;  ///< Within the cutoff.
   std::size_t merges = 0;
 
   bool in_contact() const { return !critical.empty(); }
-  /// No saddle within the cutoff: every law is the plain sum.
+  /// No saddle within the cutoff, so that every law is the plain sum.
   bool is_separated() const;
 };
 
-/// Renders a scene at poses with all laws, `layered` only where asked for: it takes much longer than the others.
+/// Forces of a scene's poses under all laws; `layered`, which is far slower, only on request.
 class Renderer {
  public:
   Renderer(const Scene& scene, const ForceProfile& profile,
@@ -52,16 +52,16 @@ class Renderer {
   std::optional<ContactFinder> layered_;
 };
 
-/// A scene with a path along which it is looked at.
+/// A scene with a path.
 struct PathScene {
   std::string name;
   Scene scene;
-  ForceProfile profile;  ///< Of a largest force of 1.
+  ForceProfile profile;  ///< With a largest force of 1.
   std::vector<Pose> poses;
 };
 
-/// The recorded hard, soft and generated contact, as the experiments of these names have them.
-/// @param stride  every so many frames of 1 kHz
+/// Recorded hard and soft contact or generated contact, like the experiment of that name.
+/// @param stride  every stride-th frame of 1 kHz is used
 PathScene load_path_scene(const std::string& name, const std::filesystem::path& meshes,
                           const std::filesystem::path& paths, std::size_t frames, std::size_t stride = 1,
                           const std::string& soft_mesh = "bunny-16k");
@@ -69,7 +69,7 @@ PathScene load_path_scene(const std::string& name, const std::filesystem::path& 
 /// Exponential with sharpness 4, saturated below a tenth of the cutoff.
 ForceProfile profile_of(double cutoff);
 
-/// Between two poses: along the line and the shortest turn.
+/// Pose between two others: along the line and the shortest turn.
 Pose between(const Pose& a, const Pose& b, double share);
 
 }  // namespace lmdbench::continuous_force

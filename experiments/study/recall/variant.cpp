@@ -21,7 +21,7 @@ constexpr double G5_TOLERANCES_RAD[] = {
 bool misses_minimum(const LmdSet& truth, const LmdSet& reported) {
   if (truth.empty()) return false;
   const double true_minimum = minimum_distance(truth);
-  // Written so that NaN (nothing reported) counts as missed.
+  // Written so that NaN, when nothing is reported, counts as missed.
   return !(std::abs(minimum_distance(reported) - true_minimum) <= MINIMUM_TOLERANCE * true_minimum);
 }
 

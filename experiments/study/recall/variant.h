@@ -10,16 +10,16 @@
 
 namespace lmdbench::recall_study {
 
-/// A method with its free choices fixed, observed before or after tracking.
+/// A method with fixed options, observed before or after tracking.
 struct Variant {
   std::string label;
   std::string method;
-  nlohmann::json options = nlohmann::json::object();  ///< Those that are not the default.
-  int trackings = 0;  ///< Trackings at the pose of the search; 0: candidates as the search left them.
+  nlohmann::json options = nlohmann::json::object();  ///< Options other than the defaults.
+  int trackings = 0;  ///< At the pose of the search; 0: the candidates of the search.
 };
 
-/// Where the improved algorithm loses LMDs, one step at a time: cones (search without pre-test), each reading
-/// of the visibility pre-test, each reduction rule, with and without the pre-test.
+/// Where the improved algorithm loses LMDs, step by step: cones (search without pre-test), each
+/// reading of the visibility pre-test, each reduction rule with and without the pre-test.
 std::vector<Variant> improved_variants();
 
 /// The original algorithm over its G5 tolerance (decision E5), before and after one tracking.
@@ -30,9 +30,9 @@ struct VariantResult {
   Variant variant;
   Agreement same;                   ///< Same features, each pair once.
   Agreement neighbours;             ///< Neighbouring features count, each pair once.
-  std::size_t poses_with_loss = 0;  ///< Poses with at least one true LMD whose feature pair is missing.
-  /// Poses whose nearest true LMD has no reported LMD at its distance (relative 1e-6):
-  /// the force's main part is off.
+  std::size_t poses_with_loss = 0;  ///< Poses where a true LMD's feature pair is missing.
+  /// Poses where no reported LMD has the true minimum distance (relative 1e-6): the main part of
+  /// the force is wrong.
   std::size_t minimum_missed = 0;
 };
 

@@ -21,21 +21,21 @@
 namespace lmdbench::scaling {
 namespace {
 
-/// Relative; the poses reach the gap to within GAP_TOLERANCE, and FCL is judged with 1e-6 in this project.
+/// Relative; poses reach the gap to within GAP_TOLERANCE, and FCL is judged with 1e-6 elsewhere.
 constexpr double MINIMUM_TOLERANCE = 2.0 * experiments::GAP_TOLERANCE;
 
 bool same_set(const LmdSet& a, const LmdSet& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_feature_pair);
 }
 
-/// Each pair once: what the paper's searches leave are candidates.
+/// Each pair once: the paper's searches yield candidates, which may repeat pairs.
 void judge(Series& series, const LmdSet& truth, const LmdSet& lmds, const Scene& scene) {
   const LmdSet reported = distinct_pairs(lmds);
   series.same += agreement(truth, reported, Match::SAME_FEATURES, scene);
   series.neighbours += agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
 }
 
-/// `certified` with the slide that leads to each pose.
+/// `certified`, run along the slide that leads to each pose.
 class CertifiedRunner {
  public:
   CertifiedRunner(const Scene& scene, bool coherent, const std::vector<Pose>& poses,
@@ -70,21 +70,21 @@ std::string minimum_objection(double minimum, const MeasureChoice& choice, doubl
                                        : fmt::format("minimum distance off by {:.2g} of itself", relative);
 }
 
-/// Whether the nearest pair is an LMD. On a broken mesh it need not be one: a sheet that is turned over or
-/// lies twice at the same place has its outer side elsewhere.
+/// Whether the nearest pair is an LMD. On a broken mesh it may not be one: a sheet that is inverted
+/// or lies twice at the same place has its outer side elsewhere.
 bool nearest_pair_is_lmd(const Scene& scene, const Pose& X_WM) {
   const Surface& moving = scene.moving->surface();
   const Surface& fixed = scene.fixed.at(0)->surface();
   const NearestPair nearest = nearest_pair(moving, scene.moving->prepared<Hierarchy>(), fixed,
                                            scene.fixed[0]->prepared<Hierarchy>(), X_WM);
   const Vec3 &p_W = nearest.pair.point_a, &q_W = nearest.pair.point_b;
-  // No wing leads from it to anything nearer.
+  // No wing leads from it to a nearer point.
   return is_outer(moving, moving.feature_of(nearest.triangle_moving, nearest.pair.feature_a),
                   X_WM.rotation.inverse() * (q_W - p_W)) &&
          is_outer(fixed, fixed.feature_of(nearest.triangle_fixed, nearest.pair.feature_b), p_W - q_W);
 }
 
-/// What `certified` is compared with: the other methods that are not brute force, and FCL.
+/// The peers of `certified`: FCL and the other methods that are not brute force.
 std::vector<experiments::SearchImplementation> peer_searches() {
   std::vector<experiments::SearchImplementation> peers;
   for (const experiments::SearchImplementation& search : experiments::method_searches())

@@ -12,19 +12,19 @@
 
 namespace lmdbench::scaling {
 
-/// What one implementation did at every pose, and the error that its time bought.
+/// Results of one implementation at every pose, with the error beside the time.
 struct Series {
   std::string name;
-  std::vector<double> seconds;         ///< One a pose: median of the repetitions, processor time.
-  std::vector<WorkCounters> counters;  ///< One a pose; only of `certified`.
-  Agreement same;         ///< With `certified` from scratch, each pair once; empty for a nearest pair only.
-  Agreement neighbours;   ///< The same, neighbouring features count.
-  std::string objection;  ///< Why its times do not count; empty when it does what it promises.
+  std::vector<double> seconds;         ///< Median of the repetitions, processor time.
+  std::vector<WorkCounters> counters;  ///< One per pose; only of `certified`.
+  Agreement same;                      ///< With `certified` from scratch; empty for nearest pairs.
+  Agreement neighbours;                ///< The same, where neighbouring features count.
+  std::string objection;               ///< Why its times do not count, or empty.
 };
 
 struct Measurement {
   std::vector<Series> series;
-  std::vector<std::size_t> lmd_counts;  ///< True LMDs, one a pose.
+  std::vector<std::size_t> lmd_counts;  ///< True LMDs of each pose.
 };
 
 struct MeasureChoice {
@@ -35,23 +35,23 @@ struct MeasureChoice {
 };
 
 /// Times, interleaved pose by pose:
-/// - "certified": from scratch at unrelated poses, between the other implementations, so with cold caches;
-/// - "certified sliding": from scratch, but after a slide to the pose (slide.h), as in a haptic loop;
+/// - "certified": from scratch at unrelated poses, between the others, so with cold caches;
+/// - "certified sliding": from scratch after a slide to the pose (slide.h), as in a haptic loop;
 /// - "certified coherent": the same slide with frame coherence;
-/// - the other methods, but for those that look at every pair of triangles, and "fcl-cold".
-/// Each is checked first: the minimum distance of `certified` (where the nearest pair is an LMD) and FCL must
-/// be the gap, and all three sets of `certified` the same.
+/// - the other methods, except those that test all pairs of triangles, and "fcl-cold".
+/// Checked first: `certified` (where the nearest pair is an LMD) and FCL have the gap as minimum
+/// distance; all three sets of `certified` are the same.
 Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const MeasureChoice& choice);
 
-/// What certified needs of a mesh, and what its making takes.
+/// Memory that certified needs for a mesh, and the time to build it.
 struct BuildCost {
-  double surface_seconds = 0.0;             ///< Adjacency and normals; wall time, least of three.
+  double surface_seconds = 0.0;             ///< Adjacency and normals; wall clock, least of three.
   double surface_cpu_seconds = 0.0;         ///< Processor time of all threads, least of three.
-  double wide_hierarchy_seconds = 0.0;      ///< Polar caps and tree; wall time, least of three.
+  double wide_hierarchy_seconds = 0.0;      ///< Polar caps and tree; wall clock, least of three.
   double wide_hierarchy_cpu_seconds = 0.0;  ///< Processor time of all threads, least of three.
   std::size_t surface_bytes = 0;            ///< Mesh, adjacency and normals.
   std::size_t wide_hierarchy_bytes = 0;
-  std::size_t features = 0;  ///< That can carry an LMD.
+  std::size_t features = 0;  ///< Features that can carry an LMD.
 };
 
 BuildCost measure_build(const TriangleMesh& mesh);

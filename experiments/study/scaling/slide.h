@@ -10,13 +10,13 @@
 
 namespace lmdbench::scaling {
 
-/// Motion from frame to frame of the recorded bunny paths while they slide: 27 mm/s and 35 degrees a second
+/// Motion of the recorded bunny paths per frame while they slide: 27 mm/s and 35 degrees a second
 /// at a diagonal of 0.15 m and 1 kHz.
 inline constexpr double SLIDE_DIAGONALS_PER_FRAME = 0.00018;
 inline constexpr double TURN_RAD_PER_FRAME = 0.00061;
 
-/// The frames of a slide that ends at `end`: tangential to the nearest pair there, in a random direction,
-/// with a turn about that pair around a random axis. The last entry is one frame before `end`.
+/// Frames of a slide that ends at `end`, tangential to the nearest pair there, in a random
+/// direction, with a random turn about that pair. The last entry is one frame before `end`.
 /// @param diagonal of the moving body [m]
 std::vector<Pose> lead_in(const Body& moving, const Body& fixed, const Pose& end, double diagonal,
                           std::size_t frames, experiments::Random& random);

@@ -6,9 +6,9 @@
 
 namespace lmdbench::scaling {
 
-/// Cuts every triangle into four at the middles of its sides, `levels` times. The surface stays where it is
-/// (middles are rounded to double precision), so only the number of triangles grows, not the contact. Sides
-/// that share both ends share their middle: closed stays closed.
+/// Cuts every triangle into four at the middles of its sides, `levels` times. The surface stays
+/// (middles are rounded to double precision): the number of triangles grows, the contact does not.
+/// Sides with the same ends share their middle, so that a closed mesh stays closed.
 TriangleMesh subdivided(TriangleMesh mesh, int levels);
 
 }  // namespace lmdbench::scaling

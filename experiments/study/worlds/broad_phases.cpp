@@ -25,13 +25,13 @@
 namespace lmdbench::worlds {
 namespace {
 
-/// Of the cube's diagonal.
+/// Shares of the cube's diagonal.
 constexpr double CUTOFF = 0.005, STEP = 0.002;
 
 using Boxes = std::vector<Eigen::AlignedBox3d>;
 using Found = std::vector<std::uint32_t>;
 
-/// Finds the boxes that come within the reach of the moving one at a pose.
+/// Finds the boxes within reach of the moving one at a pose.
 class Answers {
  public:
   virtual ~Answers() = default;
@@ -147,7 +147,7 @@ class Fcl : public Answers {
     const auto shape = std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0);
     for (std::size_t i = 0; i < input.boxes.size(); ++i) {
       objects_.push_back(std::make_unique<fcl::CollisionObjectd>(shape));
-      // A box of its own, not that round the sphere, which FCL takes for what is turned.
+      // Its own box: FCL would take the box of the sphere around what is turned.
       objects_.back()->setTranslation(input.boxes[i].center());
       const_cast<fcl::AABBd&>(objects_.back()->getAABB()) =
           fcl::AABBd(input.boxes[i].min(), input.boxes[i].max());
@@ -178,7 +178,7 @@ class Fcl : public Answers {
 };
 
 #ifdef LMDBENCH_HAS_EMBREE
-/// Boxes of the user's, found by a point query about the moving cube's sphere.
+/// User-defined boxes, found by a point query around the moving cube's sphere.
 class Embree : public Answers {
  public:
   explicit Embree(const Input& input) : input_(input), device_(rtcNewDevice("threads=1")) {
@@ -192,7 +192,7 @@ class Embree : public Answers {
           const auto& box = (*static_cast<const Boxes*>(arguments->geometryUserPtr))[arguments->primID];
           RTCBounds& bounds = *arguments->bounds_o;
           const Eigen::Vector3f low = box.min().cast<float>(), high = box.max().cast<float>();
-          // A little more, for the rounding.
+          // Grown a little because of rounding to floats.
           const float more = 1e-5F * (low.norm() + high.norm());
           bounds.lower_x = low.x() - more, bounds.lower_y = low.y() - more, bounds.lower_z = low.z() - more;
           bounds.upper_x = high.x() + more, bounds.upper_y = high.y() + more,
@@ -297,7 +297,7 @@ std::vector<BroadPhaseRow> compare_broad_phases(std::size_t instances, std::size
           double& seconds = (jumping ? rows[at].jump_seconds : rows[at].seconds)[i];
           seconds = std::min(seconds, seconds_of([&] { all[at]->near(poses[i], found); }));
           std::sort(found.begin(), found.end());
-          // Some know better than boxes: only whose cube is within reach has to be found.
+          // Some test more than boxes: only instances whose cube is within reach must be found.
           const bool complete = std::all_of(truth.begin(), truth.end(), [&](std::uint32_t t) {
             return std::binary_search(found.begin(), found.end(), t) || !input.within_reach(t, poses[i]);
           });

@@ -9,28 +9,28 @@
 
 namespace lmdbench::worlds {
 
-/// A broad phase among boxes: turned cubes at random, of the density of a crowd, and one that moves.
+/// One broad phase among randomly turned cubes, as dense as a crowd, and one cube that moves.
 struct BroadPhaseRow {
   std::string name;
   std::size_t instances = 0;
-  double build_seconds = 0.0;   ///< Least of three.
-  double bytes = 0.0;           ///< An instance.
-  std::vector<double> seconds;  ///< One a frame along a straight way of small steps: least of the passes.
-  std::vector<double> jump_seconds;  ///< One a frame at unrelated places.
-  std::size_t wrong = 0;  ///< Frames in which an instance whose cube is within reach was not reported.
+  double build_seconds = 0.0;        ///< Least of three.
+  double bytes = 0.0;                ///< Per instance.
+  std::vector<double> seconds;       ///< Per frame, straight in small steps: least of the passes.
+  std::vector<double> jump_seconds;  ///< One per frame, at unrelated places.
+  std::size_t wrong = 0;             ///< Frames in which it missed an instance within reach.
 };
 
-/// "boost" (R-tree, packed), "fcl" (dynamic AABB tree), "embree" where the build has it (user boxes, a point query), "brute force" (every
-/// box), and "kept": what worlds use, the R-tree with candidates that stay.
+/// "boost" (packed R-tree), "fcl" (dynamic AABB tree), "embree" if built (user boxes, point query),
+/// "brute force" (every box), and "kept", which worlds use: the R-tree with kept candidates.
 std::vector<BroadPhaseRow> compare_broad_phases(std::size_t instances, std::size_t frames, std::size_t passes,
                                                 std::uint64_t seed);
 
-/// What a slack costs on the same boxes and way.
+/// Cost of a slack on the same boxes and way.
 struct SlackRow {
-  double slack = 0.0;    ///< Over the radius of what moves.
-  double queries = 0.0;  ///< A frame.
-  double touched = 0.0;  ///< Instances, a frame.
-  double seconds = 0.0;  ///< Mean of a frame: least of the passes.
+  double slack = 0.0;    ///< Over the radius of the moving cube.
+  double queries = 0.0;  ///< Per frame.
+  double touched = 0.0;  ///< Instances per frame.
+  double seconds = 0.0;  ///< Mean over frames: least of the passes.
 };
 SlackRow measure_slack(double slack, std::size_t instances, std::size_t frames, std::size_t passes,
                        std::uint64_t seed);

@@ -38,7 +38,7 @@ completeness::Judgement judge_play(const Play& play, double cutoff,
   const auto poses = std::make_shared<std::vector<Pose>>(play.movers.size());
   const Scene scene{play.movers.front(), play.standing, cutoff, play.movers, 0, poses};
   const auto certified = make_method("certified", scene), exhaustive = make_method("exhaustive", scene);
-  // Each mover with all that has a higher number; `Lmd::fixed_body` counts from the first of those.
+  // Each mover with all of a higher number; `Lmd::fixed_body` counts from the first of those.
   std::vector<Scene> scenes;
   for (std::size_t mover = 0; mover < scene.mover_count(); ++mover) {
     scenes.push_back({scene.body(mover), {}, cutoff});

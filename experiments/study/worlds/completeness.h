@@ -10,12 +10,12 @@
 
 namespace lmdbench::worlds {
 
-/// `certified` along the world's path against `exhaustive`, which looks at every instance, in every frame.
-/// @param complain is called with what is wrong, in words with the pose
+/// `certified` against `exhaustive`, which tests every instance, in each frame of a world's path.
+/// @param complain receives each error as text, with the pose
 completeness::Judgement judge_world(const World& world, double cutoff,
                                     const std::function<void(const std::string&)>& complain);
 
-/// `certified` in a group of movers against `exhaustive` on every pair whose spheres are near enough, in every frame.
+/// `certified` in a group of movers against `exhaustive` on all pairs of near spheres, every frame.
 completeness::Judgement judge_play(const Play& play, double cutoff,
                                    const std::function<void(const std::string&)>& complain);
 

@@ -16,7 +16,7 @@
 namespace lmdbench::worlds {
 namespace {
 
-/// A world of some size along the path.
+/// A world of one size along the path.
 struct Walker {
   Scene scene;
   std::unique_ptr<Method> method;
@@ -54,7 +54,7 @@ std::vector<CostRow> measure_frames(const std::shared_ptr<const Body>& moving,
     walker.same.assign(poses.size(), true);
     walkers.push_back(std::move(walker));
   }
-  // With which instance the contact of a frame is, of a million; and of which frame it is.
+  // The instance, of a million, that is in contact in each frame, and the path's frame used there.
   experiments::Random random(choice.seed + 1);
   std::vector<std::size_t> which(poses.size()), contact(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -112,7 +112,7 @@ std::vector<PreparationRow> measure_preparation(const std::shared_ptr<const Body
     PreparationRow row;
     row.instances = count;
     row.seconds = std::numeric_limits<double>::infinity();
-    // Everything of the meshes is prepared by a first method.
+    // A first method prepares all that belongs to the meshes.
     make_method("certified", {moving, crowd(mesh, 2, choice.spacing, choice.seed), cutoff});
     const std::vector<FixedBody> places = crowd(mesh, count, choice.spacing, choice.seed);
     for (int k = 0; k < 3; ++k) {

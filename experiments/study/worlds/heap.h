@@ -6,7 +6,7 @@
 
 namespace lmdbench::worlds {
 
-/// Bytes of the heap that are in use.
+/// Bytes in use on the heap.
 inline double heap_in_use() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);

@@ -22,7 +22,7 @@
 namespace lmdbench::worlds {
 namespace {
 
-/// Poses of the spheres, frame by frame: nothing but correctly rounded operations, so that they are the same on every machine.
+/// Poses of the spheres by frame. Correctly rounded operations alone: the same on every machine.
 class PileScript {
  public:
   PileScript(PileMotion motion, std::vector<Pose> sites, double spacing, const PileChoice& choice)
@@ -34,7 +34,7 @@ class PileScript {
       phase_.push_back(random.uniform());
     }
     if (motion_ != PileMotion::STIRRED) return;
-    // Layers one above the other instead of one in the hollows of the other, so that they can turn.
+    // Layers stand above each other, not in the hollows of the next one, so that they can turn.
     for (Pose& site : sites_) {
       Vec3& place = site.translation;
       layer_.push_back(std::lround(place.z() / (spacing * std::sqrt(2.0 / 3.0))));
@@ -63,7 +63,7 @@ class PileScript {
 
  private:
   void swing(std::size_t i, std::size_t frame, Pose& pose) const {
-    // A parabola there and one back, whose slope is at most 8 amplitudes a period.
+    // A parabola forth and one back, whose slope is at most 8 amplitudes a period.
     constexpr double PERIOD = 40.0;
     const double amplitude = choice_.swing_speed * 1e-3 * PERIOD / 8.0;
     const double x = static_cast<double>(frame) / PERIOD + phase_[i], part = 2.0 * (x - std::floor(x));
@@ -88,7 +88,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// One pass over a pile; counters, which are the same in all passes, replace those of the last one.
+/// One pass over a pile. Counters replace those of the last pass, which are the same.
 void run_pass(const std::shared_ptr<const Body>& sphere, const PileScript& script, const PileChoice& choice,
               const BroadPhase::Tuning& tuning, PileRow& row) {
   const MethodDescription& certified = method_description("certified");
@@ -141,7 +141,7 @@ const char* to_string(PileMotion motion) {
 double PileRow::seconds_per_contact_pair() const {
   const std::size_t pairs = std::accumulate(contact_pairs.begin(), contact_pairs.end(), std::size_t{0});
   if (pairs == 0) return std::numeric_limits<double>::quiet_NaN();
-  // Frames without a contact, before a pile has come together, are none of a contact's cost.
+  // Frames without contact, before a pile has come together, do not count.
   double sum = 0.0;
   for (std::size_t i = 0; i < seconds.size(); ++i)
     if (contact_pairs[i] > 0) sum += seconds[i];

@@ -10,23 +10,22 @@
 
 namespace lmdbench::worlds {
 
-/// What the spheres of a pile do. All swing about their places, each in a direction, about an axis and with a phase of its own.
+/// Motion of a pile. All spheres swing, each with its own direction, axis and phase.
 enum class PileMotion : std::uint8_t {
-  JOSTLING,  ///< That alone: pairs in contact stay so.
-  SETTLING,  ///< They come together from farther apart: contacts begin.
-  STIRRED    ///< Layers turn against each other: neighbours change, and all leave their slack now and then.
+  JOSTLING,  ///< Only that: pairs in contact stay so.
+  SETTLING,  ///< They approach each other from farther apart: contacts begin.
+  STIRRED    ///< Layers turn against each other: neighbours change, all leave their slack.
 };
 const char* to_string(PileMotion motion);
 
-/// Spheres on the closest packing, each in contact with those that it lies on and beside.
+/// Spheres in the closest packing, in contact with those below and beside.
 struct PileChoice {
   std::vector<std::size_t> counts = {10, 30, 100, 300, 1000};
-  int subdivisions = 4;    ///< Of an icosahedron: 20 4^n triangles.
-  double radius = 0.05;    ///< [m]
-  double cutoff = 0.0005;  ///< [m]; neighbours are half of it apart.
-  double swing_speed =
-      0.002;  ///< At most [m/s]; a frame is a millisecond. A sphere turns at swing_speed / radius.
-  double looseness = 0.02;  ///< SETTLING: how much farther from the origin they begin, over where they end.
+  int subdivisions = 4;         ///< Of an icosahedron: 20 4^n triangles.
+  double radius = 0.05;         ///< [m]
+  double cutoff = 0.0005;       ///< [m]; neighbours have half of it as gap.
+  double swing_speed = 0.002;   ///< Largest [m/s] at 1 kHz; they turn at swing_speed / radius.
+  double looseness = 0.02;      ///< SETTLING: how much farther out they begin than end, relative.
   double stirring_speed = 0.2;  ///< STIRRED: of the outermost sphere [m/s].
   std::size_t frames = 300, passes = 3;
   std::uint64_t seed = 1;
@@ -35,9 +34,9 @@ struct PileChoice {
 struct PileRow {
   PileMotion motion = PileMotion::JOSTLING;
   std::size_t movers = 0, triangles = 0;
-  double first_seconds = 0.0;   ///< Of the first frame, which finds all pairs and makes their methods.
-  std::vector<double> seconds;  ///< One a frame after it: the least of the passes, wall clock.
-  std::vector<std::size_t> contact_pairs;  ///< Pairs with an LMD, one a frame.
+  double first_seconds = 0.0;              ///< Of the frame that makes all methods.
+  std::vector<double> seconds;             ///< One per later frame: least pass, wall clock.
+  std::vector<std::size_t> contact_pairs;  ///< Pairs with an LMD, one per frame.
   // Means over frames.
   double lmds = 0.0;
   double touched = 0.0;   ///< Pairs looked at.
@@ -45,14 +44,14 @@ struct PileRow {
   double anchored = 0.0;  ///< Movers that left their slack.
   double node_pairs = 0.0;
   std::size_t candidates = 0, methods = 0;  ///< At the end.
-  double bytes = 0.0;                       ///< Of the heap that the search has at the end, meshes apart.
+  double bytes = 0.0;                       ///< Heap of the search at the end, without meshes.
 
-  /// Of all frames together; NaN where there is no contact.
+  /// Over all frames; NaN where there is no contact.
   double seconds_per_contact_pair() const;
   std::size_t frames_above(double limit) const;
 };
 
-/// Runs a pile of every size, sizes in turns pass by pass.
+/// Runs piles of all sizes, which take turns pass by pass.
 std::vector<PileRow> measure_piles(PileMotion motion, const PileChoice& choice,
                                    const BroadPhase::Tuning& tuning = {});
 

@@ -16,7 +16,7 @@
 namespace lmdbench::worlds {
 namespace {
 
-/// A mesh of the given diagonal about its box's centre.
+/// A mesh of the given diagonal, centred on its box.
 std::shared_ptr<const Body> body(const std::string& name, TriangleMesh mesh, double diagonal) {
   const double scale = diagonal / bounding_box_diagonal(mesh);
   const Vec3 centre = bounding_box_centre(mesh);
@@ -28,7 +28,7 @@ void add(Scene& scene, const std::shared_ptr<const Body>& mesh, const std::vecto
   for (const Pose& pose : poses) scene.fixed.emplace_back(mesh, pose);
 }
 
-/// Stretches of a hundred frames: straight with a turn, trembling, at rest, in turns; a jump before every fourth.
+/// 100 frames each: straight with a turn, or trembling, then at rest; jumps before every fourth.
 std::vector<Pose> path_about(const Vec3& middle, double size, std::size_t frames,
                              experiments::Random& random) {
   constexpr std::size_t STRETCH = 100;
@@ -94,7 +94,7 @@ std::vector<World> small_worlds(std::size_t frames, std::uint64_t seed) {
   add(pile, box, scatter({.rule = Rule::PILE, .count = 80, .spacing = 0.9}, box->prepared<MeshBounds>()));
   walk(3.0, Vec3(0.0, 0.0, 1.5));
 
-  // Hollows turned inwards hold a grid; the moving mesh is inside of one and now and then beyond its wall.
+  // A grid in inverted hollows; the moving mesh is inside one, sometimes beyond its wall.
   Scene& nested = start("nested");
   TriangleMesh inwards = hollow->surface().mesh;
   for (auto& corners : inwards.triangles) std::swap(corners[1], corners[2]);
@@ -178,7 +178,7 @@ std::vector<FixedBody> crowd(const std::shared_ptr<const Body>& mesh, std::size_
   if (count == 0) return fixed;
   const auto& bounds = mesh->prepared<MeshBounds>();
   const double step = spacing * 2.0 * bounds.half_sides.norm();
-  // Cells of a cube that holds them all, by their distance from the middle one.
+  // Cells of a cube large enough for all, by their distance from the middle one.
   const auto half = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(count)))) / 2 + 2;
   std::vector<Eigen::Vector3i> cells;
   for (int z = -half; z <= half; ++z)

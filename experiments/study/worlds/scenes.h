@@ -12,33 +12,33 @@
 
 namespace lmdbench::worlds {
 
-/// A world with a path through it.
+/// A world and a path through it.
 struct World {
   std::string name;
   Scene scene;
   std::vector<Pose> poses;
 };
 
-/// Movers with all their poses, among what stands.
+/// Movers, with all their poses, among standing instances.
 struct Play {
   std::string name;
   std::vector<std::shared_ptr<const Body>> movers;
   std::vector<FixedBody> standing;
-  std::vector<std::vector<Pose>> frames;  ///< One a mover.
+  std::vector<std::vector<Pose>> frames;  ///< One per mover.
 };
 
-/// Several movers of about 1 m on which completeness is judged: "movers" among instances, "movers nested" (in a hollow that moves),
-/// "movers coincident" (each twice, and now and then where an instance stands) and "movers far" (a kilometre from the origin). Paths as
-/// those of worlds, one a mover.
+/// Movers of about 1 m for tests of completeness: "movers" among instances, "movers nested" (in a
+/// moving hollow), "movers coincident" (each twice, sometimes at an instance's place), "movers far"
+/// (1 km from the origin). Each has a path like those of worlds.
 std::vector<Play> small_plays(std::size_t frames, std::uint64_t seed);
 
-/// Worlds of small meshes on which completeness is judged, 30 to 120 instances each: "grid", "random" (meshes in each other), "pile",
-/// "nested" (a mesh inside another one's hollow), "coincident" (each instance three times) and "far" (a kilometre from the origin). The
-/// paths turn, tremble and rest, pass through meshes, and jump now and then. Diagonals are about 1 m.
+/// Worlds of 30 to 120 small instances for tests of completeness: "grid", "random" (meshes in each
+/// other), "pile", "nested" (in the hollow of another), "coincident" (each three times), "far" (1
+/// km off the origin). Paths turn, tremble, rest, pass meshes and jump. Diagonals are about 1 m.
 std::vector<World> small_worlds(std::size_t frames, std::uint64_t seed);
 
-/// `count` instances of the mesh on a grid, instance 0 in the middle and as the mesh is, the others turned; fewer are the inner ones of
-/// more.
+/// `count` instances of the mesh on a grid, the innermost ones: instance 0 in the middle and
+/// unturned, the others turned.
 /// @param spacing in diagonals of the mesh's box
 std::vector<FixedBody> crowd(const std::shared_ptr<const Body>& mesh, std::size_t count, double spacing,
                              std::uint64_t seed);

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-/// What random scenes draw: lengths in metres, angles in radians.
+/// Random draws of scenes: lengths in metres, angles in radians.
 namespace lmdbench::parts {
 
-/// The parts are about 1 m large.
+/// [m]; the parts are about 1 m large.
 inline constexpr double CUTOFF = 0.04;
 
 inline constexpr double TAU = 2.0 * std::numbers::pi;
@@ -35,7 +35,7 @@ inline double decades(double low, double high, experiments::Random& random) {
   return chance(0.5, random) ? size : -size;
 }
 
-/// None, or tiny.
+/// 0, or a tiny number with probability `share`.
 inline double tiny(double share, double low, double high, experiments::Random& random) {
   return chance(share, random) ? decades(low, high, random) : 0.0;
 }

@@ -9,14 +9,14 @@
 
 namespace lmdbench::parts {
 
-/// A corner, or a point on a side or in the inside of a triangle.
+/// A corner, or a point on a side or inside a triangle.
 Vec3 point_of(const Triangle& t, experiments::Random& random);
 
-/// Some triangle of the one lies over some triangle of the other, however the rest is.
+/// A pose where some triangle of one lies over one of the other; nothing else is checked.
 Pose face_on_face(const TriangleMesh& moving, const TriangleMesh& fixed, experiments::Random& random);
 
-/// That; or in the same place, but for a turn about z by a multiple of a regular polygon's angle and a small way; or an edge
-/// along or across an edge, or a corner over a point of the other. Gaps are those of draw_gap.
+/// Or the same place but for a small offset and a turn about z by a multiple of a polygon's angle;
+/// or edge along or across edge, or a corner over a point. Gaps are from draw_gap.
 Pose formed_pose(const TriangleMesh& moving, const TriangleMesh& fixed, experiments::Random& random);
 
 }  // namespace lmdbench::parts

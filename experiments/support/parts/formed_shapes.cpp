@@ -19,7 +19,7 @@ namespace {
 
 using experiments::Random;
 
-/// Radius and height.
+/// Radius and height of each point.
 using Profile = std::vector<Point>;
 
 double sixty_fourths(std::size_t low, std::size_t high, Random& random) {
@@ -51,7 +51,7 @@ TriangleMesh turned(const Profile& profile, int sides, bool closed) {
   return mesh;
 }
 
-/// The outer side of a turned part, from below: radii from a quarter to a half.
+/// The outer side of a turned part, from the bottom up; radii from a quarter to a half.
 Profile outer_profile(Random& random) {
   double z = -0.5, r = sixty_fourths(20, 32, random);
   Profile profile = {{r, z}};
@@ -69,7 +69,7 @@ Profile outer_profile(Random& random) {
       case 1:  // A cone.
         go(sixty_fourths(18, 32, random), step);
         break;
-      case 2:  // A groove with a sharp ground.
+      case 2:  // A groove with a sharp bottom.
         go(deep, 0.5 * step), go(profile[profile.size() - 2].x(), 0.5 * step);
         break;
       case 3: {  // A square groove.
@@ -77,7 +77,7 @@ Profile outer_profile(Random& random) {
         go(deep, 0.0), go(deep, step), go(rim, 0.0);
         break;
       }
-      case 4: {  // One that is wider at its ground.
+      case 4: {  // One that is wider at its bottom.
         const double rim = r;
         go(deep, -1.0 / 64.0), go(deep, step + 2.0 / 64.0), go(rim, -1.0 / 64.0);
         break;
@@ -107,7 +107,7 @@ TriangleMesh random_turned_part(Random& random) {
   const double low = profile.front().y(), high = profile.back().y(), bore = sixty_fourths(2, 12, random);
   const std::size_t kind = random.index(4);
   const double middle = 0.5 * (low + high);
-  if (kind >= 2) {  // Through, with a step or without.
+  if (kind >= 2) {  // A bore through the part, with or without a step.
     profile.emplace_back(bore, high);
     if (kind == 3) profile.insert(profile.end(), {Point(bore, middle), Point(bore + 1.0 / 64.0, middle)});
     profile.emplace_back(profile.back().x(), low);
@@ -119,7 +119,7 @@ TriangleMesh random_turned_part(Random& random) {
   return turned(profile, sides, false);
 }
 
-/// A convex polygon of radius and height, counter-clockwise, moved outwards and up while it goes round.
+/// Sweeps a convex polygon (radius, height; counter-clockwise) around z, outwards and upwards.
 TriangleMesh swept(const Profile& section, int around, int steps, double outwards, double up) {
   TriangleMesh mesh;
   const auto corners = static_cast<std::int32_t>(section.size());
@@ -151,7 +151,7 @@ TriangleMesh random_coil(Random& random) {
   if (chance(0.2, random)) section = {{r, 0.0}, {r + w, 0.5 * h}, {r, h}};
   const int around = 4 + 2 * static_cast<int>(random.index(5));
   const int steps = around + static_cast<int>(random.index(static_cast<std::size_t>(around)));
-  // Turns that lie on each other, nearly so, clear of each other, and in each other.
+  // Turns that touch, nearly touch, are apart, or overlap.
   const double kind = random.uniform();
   const double pitch = kind < 0.4   ? 1.0
                        : kind < 0.6 ? 1.0 + power_of_ten(-12.0, -2.0, random)
@@ -194,7 +194,7 @@ TriangleMesh random_thin_plate(Random& random) {
   }
 }
 
-/// Tips over the corners of a star or between two polygons that are turned against each other by half a side.
+/// Tips over the corners of a star, or between two polygons turned by half a side to each other.
 TriangleMesh random_stellated_solid(Random& random) {
   const int sides = 3 + static_cast<int>(random.index(8));
   const double r = sixty_fourths(16, 32, random), h = sixty_fourths(4, 32, random);
@@ -255,7 +255,7 @@ Relief random_relief(Random& random) {
     for (int i = 0; i <= relief.cells; ++i) {
       const double x = relief.side * (i - relief.cells / 2), y = relief.side * (j - relief.cells / 2);
       double z = sixty_fourths(0, 12, random);               // anything
-      if (kind == 0) z = sixty_fourths(0, 2, random) * 2.0;  // steps: places of one height
+      if (kind == 0) z = sixty_fourths(0, 2, random) * 2.0;  // steps: plateaus of equal height
       if (kind == 1) {                                       // facets
         z = -1.0;
         for (const Vec3& plane : planes) z = std::max(z, plane.x() * x + plane.y() * y + plane.z());
@@ -266,8 +266,8 @@ Relief random_relief(Random& random) {
   return relief;
 }
 
-/// The upper side of a relief, or the lower one of what lies on it; with a body down or up to `ground`, or without.
-/// @param step cells in one, 1 or 2
+/// The upper side of a relief, or the lower side of its cast; with a body to `ground`, or open.
+/// @param step cells that are merged into one, 1 or 2
 TriangleMesh relief_mesh(Relief& relief, bool up, bool open, double ground, int step, double holes,
                          Random& random) {
   TriangleMesh mesh;

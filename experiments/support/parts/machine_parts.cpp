@@ -37,7 +37,7 @@ Lines steps(int count, double from, double to) {
   return result;
 }
 
-/// The sides of `count` bars with gaps between them, about the middle: even steps are bars.
+/// Borders of `count` bars and the gaps between them, about the middle: even steps are bars.
 Lines bars(int count, double bar, double gap) {
   Lines result = {0.0};
   for (int i = 0; i < 2 * count - 1; ++i) result.push_back(result.back() + (i % 2 == 0 ? bar : gap));
@@ -55,7 +55,7 @@ Outline circle(int count, double radius) {
   return result;
 }
 
-/// Regular polygon with `a_side` points a side: a power of two, so that they lie on it exactly.
+/// Regular polygon, each side cut into `a_side`, a power of two: points lie on it exactly.
 Outline polygon(int sides, double circumradius, int a_side = 1) {
   const Outline corners = circle(sides, circumradius);
   Outline result;
@@ -105,7 +105,7 @@ TriangleMesh tube(const Outline& inner, const Outline& outer, Lines levels,
   return solid.mesh(place);
 }
 
-/// Discs of decreasing radius, the widest in all layers, the next in those above the first, and so on.
+/// Discs of decreasing radius: the widest in all layers, the next above the first layer, and so on.
 TriangleMesh tower(int count, const Lines& radii, Lines levels) {
   PrismComplex solid(std::move(levels));
   for (std::size_t i = 0; i + 1 < radii.size(); ++i)
@@ -115,7 +115,7 @@ TriangleMesh tower(int count, const Lines& radii, Lines levels) {
   return solid.mesh();
 }
 
-/// Straight teeth round a ring or disc: a tooth stands on half of its share of the root.
+/// Straight teeth on a ring or disc: a tooth takes half of its share of the root.
 TriangleMesh toothed(int teeth, double bore, double root, double tip, Lines levels) {
   PrismComplex solid(std::move(levels));
   const Outline foot = circle(4 * teeth, root), head = circle(8 * teeth, tip);
@@ -130,7 +130,7 @@ TriangleMesh toothed(int teeth, double bore, double root, double tip, Lines leve
   return solid.mesh();
 }
 
-/// The hub that goes round `toothed`.
+/// The hub around `toothed`.
 TriangleMesh toothed_hub(int teeth, double root, double tip, double outside, Lines levels) {
   PrismComplex solid(std::move(levels));
   const Outline foot = circle(4 * teeth, root), head = circle(8 * teeth, tip),
@@ -145,7 +145,7 @@ TriangleMesh toothed_hub(int teeth, double root, double tip, double outside, Lin
   return solid.mesh();
 }
 
-/// Pointed teeth: `lean` is where between two points of the root a tip stands, from 0 to 1.
+/// Pointed teeth: tips stand at the share `lean` between two points of the root.
 TriangleMesh pointed(int teeth, double bore, double root, double tip, double lean, Lines levels) {
   PrismComplex solid(std::move(levels));
   const Outline foot = circle(teeth, root), heads = circle(8 * teeth, tip);
@@ -156,7 +156,7 @@ TriangleMesh pointed(int teeth, double bore, double root, double tip, double lea
   return solid.mesh();
 }
 
-/// Six-sided cells of width 2 `half` with walls of half the thickness each.
+/// Six-sided cells of width 2 `half`; each has walls of half the thickness.
 TriangleMesh honeycomb(int columns_of_cells, int rows, double half, double hole) {
   PrismComplex solid({-0.125, 0.125});
   const std::array<Point, 6> corner = {{{1, 0.5}, {0, 1}, {-1, 0.5}, {-1, -0.5}, {0, -1}, {1, -0.5}}};
@@ -174,7 +174,7 @@ TriangleMesh honeycomb(int columns_of_cells, int rows, double half, double hole)
   return solid.mesh();
 }
 
-/// A frame in which slats lean: holes sheared along x.
+/// A frame with leaning slats: its holes are sheared along x.
 TriangleMesh louvres() {
   const Lines xs = bars(5, 0.125, 0.09375);
   return columns(xs, {-0.5, -0.375, 0.375, 0.5}, {-0.0625, 0.0625}, slits,

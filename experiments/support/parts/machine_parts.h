@@ -7,9 +7,9 @@
 #include <span>
 #include <string_view>
 
-/// Machine parts as exact meshes: plates with holes and slots, rings, gears, threads, ribs, shafts, and what goes into
-/// what. About a metre large, closed manifolds without T-junctions; the same bits on every processor. Coordinates are
-/// dyadic fractions or multiples of the sines of shapes.h, so that faces square to the axes are flat to the bit.
+/// Machine parts as exact meshes: plates, rings, gears, threads, ribs, shafts, and mates for them.
+/// About a metre large, closed, manifold, without T-junctions, the same bits on all processors.
+/// Dyadic coordinates or multiples of sines (shapes.h): faces square to an axis are exactly flat.
 namespace lmdbench::parts {
 
 struct Part {
@@ -17,7 +17,7 @@ struct Part {
   TriangleMesh mesh;
 };
 
-/// All of them, by name.
+/// All parts.
 std::span<const Part> machine_parts();
 
 /// @throws UsageError for an unknown name
@@ -28,10 +28,10 @@ const TriangleMesh& machine_part(std::string_view name);
 TriangleMesh make_comb(int teeth, double tooth);
 
 /// `count` by `count` square tiles with an eight-sided hole each: 48 triangles a tile, and the rim.
-/// @param side, hole  of a tile, radius of its hole [m]
+/// @param side, hole  side of a tile, radius of its hole [m]
 TriangleMesh make_perforated_sheet(int count, double side, double hole, double thickness);
 
-/// Play between a part and the one that it goes into [m].
+/// Play between a part and its counterpart [m].
 inline constexpr double CLEARANCE = 1.0 / 128.0;
 
 }  // namespace lmdbench::parts

@@ -90,7 +90,7 @@ const std::array KINDS = {
     PartsKind{"any part on any part", "", ""},
 };
 
-/// In the place of a name: the same mesh again, or both drawn together.
+/// Special names of the second part: the same mesh, its mate, or any two shapes.
 constexpr const char *ITS_COPY = "its copy", *ITS_MATE = "its mate", *ANY_FORMED = "any formed shape";
 constexpr const char *TURNED_MATES = "turned mates", *RELIEF_MATES = "relief mates";
 
@@ -139,7 +139,7 @@ struct Family {
   Generator generator;
   std::span<const PartsKind> kinds;
 };
-/// Where they stand says what their kinds draw (random_of).
+/// The indices of families and kinds seed the draws of a kind (random_of).
 const std::array FAMILIES = {
     Family{Generator::MACHINE_PARTS, KINDS}, Family{Generator::CLEAR_SHAPES, CLEAR_KINDS},
     Family{Generator::RANDOM_SOLIDS, RANDOM_KINDS}, Family{Generator::FORMED_SHAPES, FORMED_KINDS}};
@@ -150,7 +150,7 @@ const Family& family_of(const PartsKind& kind) {
   });
 }
 
-/// Those of CLEAR_KINDS: boxes in grids, what has holes, is not convex or is two.
+/// Shapes of CLEAR_KINDS: grids of boxes, shapes with holes, not convex, or of two components.
 const std::map<std::string_view, TriangleMesh>& clear_shapes() {
   static const std::map<std::string_view, TriangleMesh> SHAPES = {
       {"square plate", make_box({1.0, 1.0, 0.1}, {4, 4, 1})},
@@ -182,7 +182,7 @@ Mat3 quarter_turns(Random& random) {
   return turn;
 }
 
-/// As it is made, turned about the vertical axis, or on any of its sides.
+/// Unturned, turned about the vertical axis, or on any of its sides.
 TriangleMesh on_some_side(TriangleMesh mesh, Random& random) {
   const Mat3 turn = quarter_turns(random);
   if (chance(0.6, random)) return mesh;
@@ -190,7 +190,7 @@ TriangleMesh on_some_side(TriangleMesh mesh, Random& random) {
   return mesh;
 }
 
-/// Height of the highest vertices in a direction along z, and what lies there.
+/// The highest vertices in a direction along z: height, corners, borders.
 struct Level {
   double height = 0.0;
   std::vector<Vec3> corners;
@@ -224,7 +224,7 @@ double angle_of(const std::array<Vec3, 2>& border) {
 }
 
 Eigen::Quaterniond about_z(double angle) {
-  // So that no turn is none to the bit.
+  // No turn is exactly the identity.
   return angle == 0.0 ? Eigen::Quaterniond::Identity()
                       : Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
 }
@@ -260,8 +260,8 @@ class PoseMaker {
   }
 
  private:
-  /// A side lies over the other's without a tilt, a fortieth of the cutoff above it, nothing
-  /// aligned but directions.
+  /// Puts a side over the other's without a tilt, a fortieth of the cutoff above it; only
+  /// directions are aligned.
   Pose clearly_on_it(Random& random) const {
     Pose pose;
     pose.rotation = about_z(chance(1.0 / 3.0, random) ? 0.25 * TAU * static_cast<double>(random.index(4))
@@ -271,7 +271,7 @@ class PoseMaker {
     return pose;
   }
 
-  /// A side lies over the other's.
+  /// Puts a side over the other's.
   Pose on_it(Random& random) const {
     Pose pose;
     const double alignment = random.uniform();
@@ -301,7 +301,7 @@ class PoseMaker {
       pose.translation = on[0] + random.uniform() * (on[1] - on[0]) - at[0] -
                          random.uniform() * (at[1] - at[0]) + offset * along.cross(Vec3::UnitZ());
     } else if (alignment < 0.5) {
-      // Steps of a sixteenth: what the parts are made of.
+      // Multiples of a sixteenth, like the parts' own sizes.
       for (double& x : pose.translation) x = std::round(random.uniform(-8.0, 8.0)) / 16.0 + offset;
     } else {
       for (double& x : pose.translation) x = random.uniform(-reach, reach);
@@ -316,7 +316,7 @@ class PoseMaker {
     return pose;
   }
 
-  /// Distance is 1-Lipschitz in translation: a few steps of what is left come near enough.
+  /// Distance is 1-Lipschitz in translation: a few steps of the remaining gap come near enough.
   void descend(Pose& pose, double gap) const {
     for (int step = 0; step < 6; ++step) {
       const double left = nearest_pair(moving_.surface(), moving_.prepared<Hierarchy>(), fixed_.surface(),
@@ -328,7 +328,7 @@ class PoseMaker {
     }
   }
 
-  /// Off its seat by some of the clearance.
+  /// Off the central seat by part of the clearance.
   Pose in_it(Random& random) const {
     Pose pose;
     const double how = random.uniform();
@@ -354,7 +354,7 @@ class PoseMaker {
   Body moving_, fixed_;
 };
 
-/// A mesh as its file holds it, and the turn that brings it there.
+/// A mesh as stored in a file, and the pose of the design in it.
 struct File {
   std::shared_ptr<const Body> body;
   Pose X_FD;  ///< From the frame of the design to that of the file.
@@ -369,7 +369,7 @@ File file_of(const char* name, TriangleMesh mesh, Coordinates coordinates, Rando
   return file;
 }
 
-/// Far from each other, so that no two scenes draw the same numbers.
+/// Seeds are spread so that no two scenes draw the same numbers.
 Random random_of(const PartsChoice& choice, std::uint64_t stream) {
   const PartsKind& kind = parts_kind(choice.kind);
   const Family& family = family_of(kind);

@@ -15,11 +15,11 @@
 
 namespace lmdbench::parts {
 
-/// How the coordinates of a scene's meshes come about.
+/// How a scene's mesh coordinates are made.
 enum class Coordinates : std::uint8_t {
   EXACT,    ///< As the part is made: faces square to the axes are flat to the bit.
-  TURNED,   ///< Each mesh moved at random before it is stored; the coordinates are doubles.
-  ROUNDED,  ///< The same, rounded to single precision and flattened as an import does it.
+  TURNED,   ///< Each mesh is moved at random before it is stored in doubles.
+  ROUNDED,  ///< TURNED, then rounded to floats and flattened like an import.
   RECUT     ///< EXACT in other triangles (recut.h).
 };
 inline constexpr Coordinates ALL_COORDINATES[] = {Coordinates::EXACT, Coordinates::TURNED,
@@ -28,8 +28,9 @@ const char* name_of(Coordinates coordinates);
 
 /// Which poses a scene has.
 enum class PoseFamily : std::uint8_t {
-  ANY,  ///< Tilts and yaws of 0 and 1e-13 to 1e-3, gaps from overlap over 0 and 1e-9 to the cutoff, borders aligned.
-  FLUSH  ///< No tilt, a gap above 0, translations that are multiples of 2^-24: flat contact is exact in EXACT and RECUT.
+  /// Tilts and yaws of 0 and 1e-13 to 1e-3, gaps from overlap to the cutoff, aligned borders.
+  ANY,
+  FLUSH  ///< No tilt, gaps above 0, translations by 2^-24: exact flat contact in EXACT and RECUT.
 };
 
 /// A part on or in another one.
@@ -37,27 +38,26 @@ struct PartsKind {
   const char* name;
   const char* moving;
   const char* fixed;
-  bool nested =
-      false;  ///< The moving part goes into the fixed one, with CLEARANCE; else a side of it lies on a side.
+  bool nested = false;  ///< Into the fixed part, with CLEARANCE; else on it.
 };
 
-/// Where kinds come from.
+/// Sources of kinds.
 enum class Generator : std::uint8_t {
-  MACHINE_PARTS,  ///< Parts that are drawn (machine_parts.h), on and in each other; the last kind draws both by lot.
-  CLEAR_SHAPES,  ///< Plates, boxes, holes, blocks; a side of one lies clearly over a side of the other, nothing to rounding.
-  RANDOM_SOLIDS,  ///< Solids that nobody drew (random_solids.h); any face of one lies on any face of the other.
-  FORMED_SHAPES  ///< Turned, swept, slit, scanned shapes (formed_shapes.h) on each other, their copies and their mates.
+  MACHINE_PARTS,  ///< Drawn parts (machine_parts.h); the last kind takes two by lot.
+  CLEAR_SHAPES,   ///< Plates, boxes, holes, blocks; one clearly over another.
+  RANDOM_SOLIDS,  ///< random_solids.h; any face on any face.
+  FORMED_SHAPES   ///< formed_shapes.h, on each other, copies or mates.
 };
 std::span<const PartsKind> parts_kinds(Generator generator = Generator::MACHINE_PARTS);
-/// Names on command lines, of those whose poses are hard.
+/// Names on command lines of the generators with hard poses.
 inline const std::map<std::string, Generator> HARD_GENERATORS = {{"parts", Generator::MACHINE_PARTS},
                                                                  {"solids", Generator::RANDOM_SOLIDS},
                                                                  {"shapes", Generator::FORMED_SHAPES}};
-/// Of any generator.
+/// A kind of any generator.
 /// @throws UsageError for an unknown name
 const PartsKind& parts_kind(std::string_view name);
 
-/// What a scene depends on: nothing else does.
+/// All that a scene depends on.
 struct PartsChoice {
   std::string_view kind;
   Coordinates coordinates = Coordinates::EXACT;
@@ -69,16 +69,16 @@ struct PartsChoice {
 struct PartsScene {
   Scene scene;              ///< With its cutoff.
   double diagonal = 0.0;    ///< Of the fixed mesh [m].
-  std::vector<Pose> poses;  ///< World pose of the moving mesh.
+  std::vector<Pose> poses;  ///< World poses of the moving mesh.
 };
 
-/// Poses of one scene: half of the scenes have unrelated ones, half slide or turn slowly.
+/// Poses of one scene; half of the scenes have unrelated ones, half slow slides or turns.
 inline constexpr std::size_t POSES_A_SCENE = 10;
 
-/// The scene of a choice. All coordinates of one kind, seed and index are the same design in the same poses.
+/// One kind, seed and index have the same design and poses in all coordinates.
 PartsScene make_parts_scene(const PartsChoice& choice);
 
-/// Two meshes and poses of one relative to the other, as designed.
+/// Two meshes and relative poses, as designed.
 struct PartsDesign {
   TriangleMesh moving, fixed;
   std::vector<Pose> poses;

@@ -44,7 +44,7 @@ std::vector<Pose> poses_of(std::size_t count, bool slides, const Vec3& step, con
     }
     Pose next = poses.back();
     next.translation += step;
-    // So that no turn is none to the bit.
+    // No turn keeps the exact bits.
     if (turn.vec() != Vec3::Zero()) next.rotation = (turn * next.rotation).normalized();
     poses.push_back(next);
   }

@@ -19,19 +19,19 @@ using Outline = std::vector<Point>;
 using Layers = std::uint64_t;
 inline constexpr Layers NO_LAYER = 0, ALL_LAYERS = ~Layers{0};
 
-/// A solid made of upright prisms: convex cells of a plane, each filled in some of the layers between levels of height.
-/// Its boundary is closed and free of T-junctions whatever is filled, as long as cells meet in whole sides; it is a
-/// manifold where no two filled prisms meet in an edge or corner alone.
+/// A solid of upright prisms: convex cells of a plane, each filled in some of the layers between
+/// levels of height. If cells meet in whole sides, its boundary is closed and free of T-junctions.
+/// It is a manifold where no two filled prisms meet only in an edge or corner.
 class PrismComplex {
  public:
-  /// @param levels heights, ascending: one more than there are layers
+  /// @param levels ascending heights, one more than there are layers
   explicit PrismComplex(std::vector<double> levels) : levels_(std::move(levels)) {}
 
   std::size_t layer_count() const { return levels_.size() - 1; }
 
-  /// A convex cell, corners counter-clockwise. Cells that share a side name its ends with the same bits.
+  /// A convex cell, counter-clockwise. The ends of a common side have the same bits in both cells.
   void add_cell(Outline corners, Layers layers = ALL_LAYERS);
-  /// Quads between two outlines of as many points each.
+  /// Quads between two outlines with equal numbers of points.
   void add_ring(const Outline& inner, const Outline& outer,
                 const std::function<Layers(std::size_t)>& layers = nullptr);
   /// Rectangles between the lines; not filled where `layers` gives NO_LAYER.
@@ -39,7 +39,7 @@ class PrismComplex {
                 const std::function<Layers(std::size_t, std::size_t)>& layers = nullptr);
 
   /// The boundary, triangles counter-clockwise seen from outside.
-  /// @param place where a point of the complex goes, keeping orientation; stays where it is when none is given
+  /// @param place maps points of the complex and keeps orientation; none: identity
   TriangleMesh mesh(const std::function<Vec3(const Vec3&)>& place = nullptr) const;
 
  private:
@@ -51,11 +51,11 @@ class PrismComplex {
   std::vector<Cell> cells_;
 };
 
-/// From a profile in the plane of x and height to its extrusion along y.
+/// Maps a profile in the plane of x and height to its extrusion along y.
 inline Vec3 laid_down(const Vec3& p) {
   return {p.x(), -p.z(), p.y()};
 }
-/// Extrusion along y of what is between two lines of as many points, from left to right.
+/// Extrusion along y of the region between two lines of equally many points, from left to right.
 TriangleMesh between(const Outline& low, const Outline& high, double length = 1.0);
 
 }  // namespace lmdbench::parts

@@ -19,7 +19,7 @@ using experiments::Random;
 
 constexpr std::size_t CELLS = 5;
 
-/// Uneven: from a 128th to a quarter apart, about the middle.
+/// Uneven steps from a 128th to a quarter, about the middle.
 std::vector<double> uneven_lines(std::size_t steps, Random& random) {
   std::vector<double> lines = {-0.5};
   for (std::size_t i = 0; i < steps; ++i)
@@ -28,7 +28,7 @@ std::vector<double> uneven_lines(std::size_t steps, Random& random) {
   return lines;
 }
 
-/// A range of steps from `begin` to `end`.
+/// Steps `begin` up to `end`.
 struct Range {
   std::size_t begin, end;
   bool has(std::size_t i) const { return begin <= i && i < end; }

@@ -14,10 +14,10 @@ namespace lmdbench::parts {
 namespace {
 
 using Corners = std::array<std::int32_t, 3>;
-/// Of the edges that are halved; and passes over all edges that turn some.
+/// Share of halved edges; share of edges that a pass turns.
 constexpr double HALVED_SHARE = 0.15, TURNED_SHARE = 0.5;
-/// Sine below which four points are flat, and one above which an angle of theirs is no straight one: turning makes no
-/// needle.
+/// Sine up to which four points are flat, and sine that the angles of the new triangles must
+/// exceed: no needles.
 constexpr double FLAT = 1e-13, ANGLE = 0.05;
 
 /// Both triangles of an edge and their corners off it: from `from` to `to` in the left one.
@@ -31,7 +31,7 @@ void shuffle(std::vector<Element>& elements, experiments::Random& random) {
   for (std::size_t i = elements.size(); i > 1; --i) std::swap(elements[i - 1], elements[random.index(i)]);
 }
 
-/// Of every edge of two triangles, in a random order.
+/// The diamonds of all edges of two triangles, in random order.
 std::vector<Diamond> diamonds(const TriangleMesh& mesh, experiments::Random& random) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::size_t, std::int32_t>> side;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -49,7 +49,7 @@ std::vector<Diamond> diamonds(const TriangleMesh& mesh, experiments::Random& ran
   return result;
 }
 
-/// Goes over diamonds that share no triangle with one that was changed before.
+/// Visits diamonds that share no triangle with one changed before.
 template <typename Change>
 void for_some(TriangleMesh& mesh, double share, experiments::Random& random, const Change& change) {
   std::vector<bool> changed(mesh.triangles.size(), false);
@@ -63,7 +63,7 @@ bool can_turn(const TriangleMesh& mesh, const Diamond& d) {
   const auto at = [&](std::int32_t v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
   const Vec3 a = at(d.from), b = at(d.to), l = at(d.left_tip), r = at(d.right_tip);
   const Vec3 n = (b - a).cross(l - a), m = (a - b).cross(r - b);
-  // Coplanar and on one side, and a strictly convex quadrilateral.
+  // Coplanar, equally oriented, and a strictly convex quadrilateral.
   if (!(n.cross(m).norm() <= FLAT * n.norm() * m.norm() && n.dot(m) > 0.0)) return false;
   if (!(std::abs(n.dot(r - a)) <= FLAT * n.norm() * (r - a).norm())) return false;
   const auto turns_left = [&](const Vec3& p, const Vec3& q, const Vec3& s) {

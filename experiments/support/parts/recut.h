@@ -8,13 +8,13 @@
 
 namespace lmdbench::parts {
 
-/// The same shape cut into other triangles: some edges are halved, diagonals of flat quadrilaterals turned, and vertices
-/// and triangles stand in another order. Closed where the mesh is, and exact where its coordinates have bits to spare.
-/// Edges of one triangle stay.
+/// The same shape in other triangles: some edges are halved, diagonals of flat quadrilaterals
+/// turned, vertices and triangles reordered. Closed meshes stay closed, and exact if their
+/// coordinates have bits to spare. Edges of one triangle stay.
 /// @pre triangles that share an edge agree on its orientation, and are two at most
 TriangleMesh recut(TriangleMesh mesh, experiments::Random& random);
 
-/// The last two steps of it alone: diagonals turned; vertices, triangles and corners in another order.
+/// Its last two steps alone: turned diagonals; vertices, triangles and corners in another order.
 TriangleMesh other_diagonals(TriangleMesh mesh, experiments::Random& random);
 TriangleMesh reordered(TriangleMesh mesh, experiments::Random& random);
 

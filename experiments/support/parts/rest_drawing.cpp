@@ -56,7 +56,7 @@ bool RestDrawing::is_facing(std::size_t axis, const Cell& lower) const {
   return are_both(at(lower), at(stepped(lower, axis)));
 }
 
-/// Whether edges along the axis pass each other at the upper lines of the cell, and nothing else is there.
+/// Whether only two edges along the axis pass each other at the upper lines of the cell.
 bool RestDrawing::is_passing(std::size_t axis, const Cell& lowest) const {
   const auto [a, b] = others(axis);
   const char p = at(lowest), q = at(stepped(lowest, a)), r = at(stepped(lowest, b)),
@@ -66,7 +66,7 @@ bool RestDrawing::is_passing(std::size_t axis, const Cell& lowest) const {
 
 namespace {
 
-/// Calls with every cell, those just round the drawing included.
+/// Calls with every cell, including those just around the drawing.
 template <typename Visit>
 void for_cells(const Cell& counts, const Visit& visit) {
   for (int i = -1; i <= counts[0]; ++i)
@@ -115,7 +115,7 @@ void RestDrawing::find_edges(std::size_t axis) {
     for (const char part : {'A', 'B'}) {
       const bool p = at(cell) == part, q = at(stepped(cell, a)) == part, r = at(stepped(cell, b)) == part,
                  s = at(stepped(stepped(cell, a), b)) == part;
-      if (p == s && q == r && p != q) sound_ = false;  // two edges of one part in one
+      if (p == s && q == r && p != q) sound_ = false;  // two edges of one part coincide
     }
     if (!is_passing(axis, cell) || is_passing(axis, stepped(cell, axis, -1))) return;
     Meeting meeting;
@@ -158,7 +158,7 @@ void RestDrawing::find_corners() {
         const bool both = corner(low) == part && corner(high) == part,
                    none = corner(low) != part && corner(high) != part;
         if ((both && holding == 2) || (none && holding == 6))
-          sound_ = false;  // two corners of one part in one
+          sound_ = false;  // two corners of one part coincide
       }
       const bool a_is_low = only('A', 'B', '.', false);
       if (!a_is_low && !only('B', 'A', '.', false)) continue;

@@ -14,35 +14,34 @@ namespace lmdbench::parts {
 /// Numbers of a cell, or of the lines that meet in its lowest corner.
 using Cell = std::array<int, 3>;
 
-/// Two parts drawn in cells between lines (rest_fits.h), and where they meet when every line is one plane for both. Part A's lines are
-/// then moved off B's, to the side of A: each meeting becomes a gap of its own.
+/// Two parts drawn in cells between lines (rest_fits.h), and where they meet if each line is one
+/// plane for both. Then part A's lines are moved off B's towards A: each meeting becomes a gap.
 class RestDrawing {
  public:
-  /// @pre rows of a layer and layers of a drawing are of one size
+  /// @pre all rows of a layer, and all layers, have one size
   explicit RestDrawing(std::string_view drawing);
 
   int count(std::size_t axis) const { return counts_[axis]; }
-  /// 'A', 'B', or '.', which is also what is round the drawing.
+  /// 'A', 'B' or '.', also outside the drawing.
   char at(const Cell& cell) const;
 
-  /// Whether both parts are manifolds, meet somewhere, and A is on one side of every line across which they meet.
+  /// Both parts are manifolds that meet somewhere; A is on one side of each line where they meet.
   bool is_sound() const { return sound_ && !meetings_.empty(); }
-  /// On which side of a line part A meets B: 1 where its cells are those above, -1 below, 0 where nothing meets.
+  /// Side of A at a line where it meets B: 1 if its cells are above, -1 below, 0 if nothing meets.
   int side_of_a(std::size_t axis, int line) const { return sides_[axis][static_cast<std::size_t>(line)]; }
 
-  /// A line at which a contact of faces ends; reflex where one of the parts turns round the other there.
+  /// A line where a contact of faces ends; reflex if one of the parts turns round the other there.
   struct Border {
     std::size_t axis;
     int line;
     bool is_reflex;
   };
-  /// A connected place where both parts meet: of faces on one line, of edges on two, of corners on three.
+  /// A connected place where both parts meet: faces on one line, edges on two, corners on three.
   struct Meeting {
-    std::vector<std::pair<std::size_t, int>> axes;  ///< Axis and line.
-    std::vector<Cell> corners;                      ///< Of all cells of it, as lines.
-    std::vector<std::array<Border, 2>>
-        border_pairs;         ///< Of faces: the borders at each convex corner of the place.
-    bool leads_down = false;  ///< Of edges: one goes on where faces meet.
+    std::vector<std::pair<std::size_t, int>> axes;    ///< Axis and line.
+    std::vector<Cell> corners;                        ///< Corners of all its cells, as lines.
+    std::vector<std::array<Border, 2>> border_pairs;  ///< Of faces: borders at each convex corner.
+    bool leads_down = false;                          ///< Of edges: one continues where faces meet.
   };
   const std::vector<Meeting>& meetings() const { return meetings_; }
 

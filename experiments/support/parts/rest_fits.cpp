@@ -65,14 +65,14 @@ constexpr RestFit FITS[] = {
 /// Gaps over the size; 0 and 1e-16 are below the last digit of most coordinates.
 constexpr double ROUNDED = 512.0 * std::numeric_limits<double>::epsilon();
 constexpr std::array GAPS = {0.0, 1e-16, 1e-15, 1e-14, 1e-13, ROUNDED, 1e-12, 1e-11, 1e-10, 1e-9, 1e-6, 1e-3};
-/// Shares of the size: what is seen of the parts; the narrowest cell, which has to be wider by more than a few gaps.
+/// Shares of the size: the cutoff; the narrowest cell, which must exceed a few gaps.
 constexpr double CUTOFF_SHARE = 0.1, NARROWEST = 0.25;
 /// Over the size: parts of up to seven cells, up to three sizes from the origin.
 constexpr double LARGEST_COORDINATE = 12.0;
-/// A foot nearer to a reflex edge than this, in roundings, may be on either side of it.
+/// A foot nearer to a reflex edge than so many roundings may be on either side of it.
 constexpr double FOOT_ROUNDINGS = 4.0;
 
-/// Planes of both parts: line l of axis a is normal . x = position, moved by the offset for part A.
+/// Planes of both parts: line l of axis a is normal . x = position, plus the offset for part A.
 struct CellPlanes {
   std::array<std::vector<double>, 3> positions, slopes, gaps, offsets;
 
@@ -94,7 +94,7 @@ struct CellPlanes {
   double gap(std::size_t axis, int line) const { return gaps[axis][static_cast<std::size_t>(line)]; }
 };
 
-/// Frames of the meshes: the design's, one that both were turned into, one each.
+/// Mesh frames: the design's, a common one that vertices are turned into, or one for each mesh.
 enum class Frames : std::uint8_t { DESIGN, BAKED, POSED };
 
 /// Ends of a profile, at its first and last layer.
@@ -162,7 +162,7 @@ CellPlanes draw_lines(const RestFit& fit, const RestDrawing& drawing, double siz
     for (std::size_t i = 0; i < count; ++i) {
       const double gap = lines.gaps[axis][i] = size * GAPS[least + random.index(GAPS.size() - least)];
       const int side = drawing.side_of_a(axis, static_cast<int>(i));
-      // A line across which nothing is met: flush, or off by some gap.
+      // A line where nothing meets: flush, or off by some gap.
       lines.offsets[axis][i] = side != 0 ? side * gap : gap * std::round(random.uniform(-1.49, 1.49));
     }
   }
@@ -187,8 +187,8 @@ TriangleMesh mesh_of(const RestDrawing& drawing, const CellPlanes& lines, char p
   });
 }
 
-/// The shortest vector that is no shorter than each gap along its normal: what is between two corners (edges, faces) whose planes are
-/// parallel. Found by trying all sets of planes that it may hang on.
+/// The shortest vector that has each gap along its normal, at least: between two corners (edges,
+/// faces) with parallel planes. All sets of planes that may determine it are tried.
 /// @param margin receives by how much that set is the right one [m]
 Vec3 shortest_between(const Eigen::Matrix3Xd& normals, const Eigen::VectorXd& gaps, double& margin) {
   const Eigen::Index count = gaps.size();
@@ -209,7 +209,7 @@ Vec3 shortest_between(const Eigen::Matrix3Xd& normals, const Eigen::VectorXd& ga
   return result;
 }
 
-/// A place with its numbers: what meets there has A's side of each line.
+/// A place with its numbers; its features are on A's side of each line.
 RestPlace place_of(const RestDrawing::Meeting& meeting, const RestDrawing& drawing, const CellPlanes& lines,
                    double rounding, bool in_floats) {
   const auto towards_b = [&](std::size_t axis, int line) {
@@ -221,7 +221,7 @@ RestPlace place_of(const RestDrawing::Meeting& meeting, const RestDrawing& drawi
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [axis, line] = meeting.axes[static_cast<std::size_t>(i)];
     normals.col(i) = towards_b(axis, line);
-    // A direction is known where gaps are 0, too.
+    // The direction is defined at gaps of 0, too.
     gaps[i] = std::max(lines.gap(axis, line), std::numeric_limits<double>::min());
   }
   RestPlace place;
@@ -236,14 +236,14 @@ RestPlace place_of(const RestDrawing::Meeting& meeting, const RestDrawing& drawi
     place.demanded = !meeting.leads_down && margin > FOOT_ROUNDINGS * rounding;
     return place;
   }
-  // A corner of the contact is a minimum where no side of it is a reflex edge that the foot may fall on or beyond.
+  // A corner of the contact is a minimum unless the foot may fall beyond a reflex edge beside it.
   const auto holds = [&](const RestDrawing::Border& border) {
     return (!border.is_reflex && !in_floats) ||
            lines.gap(border.axis, border.line) -
                    place.gap * place.direction.dot(towards_b(border.axis, border.line)) >
                FOOT_ROUNDINGS * rounding;
   };
-  // Planes of floats are tilted by more than rounding: any corner may be the lowest, and lead off along a wall that touches.
+  // Float planes are tilted by more than rounding: any corner may be lowest and lead along a wall.
   const auto both_hold = [&](const auto& pair) { return holds(pair[0]) && holds(pair[1]); };
   place.demanded = in_floats ? std::ranges::all_of(meeting.border_pairs, both_hold)
                              : std::ranges::any_of(meeting.border_pairs, both_hold);

@@ -44,7 +44,7 @@ TEST(Random, CoversTheSphereEvenly) {
     direction_sum += direction;
     rotated_sum += random.rotation() * Vec3::UnitX();
   }
-  // Mean of COUNT unit vectors: the standard deviation of its length is about 1 / sqrt(COUNT); five of them.
+  // Length of the mean of COUNT unit vectors: five standard deviations of about 1 / sqrt(COUNT).
   EXPECT_LT((direction_sum / COUNT).norm(), 5.0 / std::sqrt(COUNT));
   EXPECT_LT((rotated_sum / COUNT).norm(), 5.0 / std::sqrt(COUNT));
 }

@@ -36,7 +36,7 @@ END
 chmod +x build/release/lmdbench
 """
 
-# What every played program does; `kind` is where its results come from.
+# What every fake program does; `kind` is where its results come from.
 PLAYED = """
 [ $behaviour != no-start ] || { echo 'missing library' >&2; exit 127; }
 case "$*" in *compare*|--help) exec {program} "$@" ;; esac
@@ -57,7 +57,7 @@ VALGRIND = """#!/bin/sh
 grep behaviour= "$3" >"${2#--callgrind-out-file=}"
 """
 
-# The candidate that spins takes 5 % more instructions in one search.
+# The spinning candidate takes 5 % more instructions in one search.
 CALLGRIND_ANNOTATE = """#!/bin/sh
 search=2,000,000
 ! grep -q spins "$3" || search=2,100,000
@@ -81,7 +81,7 @@ def make_results(folder):
                 file = os.path.join(folder, "results", kind, f"{name}-{index}.h5")
                 shutil.copy(template, file)
                 with h5py.File(file, "r+") as h5:
-                    del h5.attrs["content_sha256"]  # changed on purpose
+                    del h5.attrs["content_sha256"]  # on purpose
                     for method in h5["methods"].values():
                         for dataset in [d for d in method if d.endswith("_time")]:
                             method[dataset][...] = method[dataset][()] * factor * generator.lognormvariate(0.0, spread)

@@ -15,7 +15,7 @@ import time
 from job_notes import append_log, read_note, write_note
 
 SUCCESS = {"COMPLETED"}
-# A node that failed sends its jobs back into the queue (sbatch --requeue), so only what stays in such a state has failed.
+# Slurm requeues jobs of a failed node (sbatch --requeue): only jobs in other states failed.
 RUNNING = {"PENDING", "CONFIGURING", "RUNNING", "COMPLETING", "SUSPENDED", "REQUEUED", "REQUEUE_FED", "RESIZING", "SIGNALING",
            "STAGE_OUT", "STOPPED"}
 FORGOTTEN = "Invalid job id"

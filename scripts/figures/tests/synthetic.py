@@ -105,7 +105,7 @@ def write_method(group, label, frames, repetitions, searches, contacts, true_for
     if every_frame:
         local += cost * (0.3 + depth)
     search = cost * (0.3 + depth[started]) * (1 + 0.05 * random.random((repetitions, started.size)))
-    local[0] *= 10.0  # a warm-up that must not be seen in any number
+    local[0] *= 10.0  # a warm-up, which no number may include
     search[0] *= 10.0
     dataset(group, "local_update_time", local, "s", "time of each local update")
     if every_frame:
@@ -118,7 +118,7 @@ def write_method(group, label, frames, repetitions, searches, contacts, true_for
 
 
 SUMMARY_UNITS = {"_m": "m", "_n": "N", "_rad": "rad", "_s": "s", "_per_second": "1/s"}
-# Known numbers of each method; of the improved one where it is not named.
+# Known numbers of each method, or of the improved one.
 LOSSES = {"recall": 0.8, "recall_adjacent": 0.9, "precision": 0.7, "precision_adjacent": 0.95, "frames_wrong": 8.0,
           "force_error_rms_n": 0.9, "force_error_maximum_n": 2.0, "jumps": 20.0}
 EXACT = {"recall": 1.0, "recall_adjacent": 1.0, "precision": 1.0, "precision_adjacent": 1.0, "frames_wrong": 0.0,

@@ -200,7 +200,7 @@ class FigureTest(ScriptsTest):
 
     def test_figure7_shows_medians_and_says_what_it_cuts(self):
         def busy(h5):
-            h5["/methods/original/global_search_time"][:, 10] = 0.5  # in every repetition: a median of half a second
+            h5["/methods/original/global_search_time"][:, 10] = 0.5  # in every repetition
 
         result = Result(self.edited("busy.h5", busy))
         figure = figure7.draw(result, Result(self.soft))
@@ -276,7 +276,7 @@ class FigureTest(ScriptsTest):
                 h5["/methods/certified/summary/force_error_rms_n"][...] = error
             return Result(self.edited(f"shifted{error}.h5", change, methods=("original", "improved", "certified")))
 
-        for error in (1e-7, 3e-14):  # just above what counts as rounding, and a nearest pair that is right to it
+        for error in (1e-7, 3e-14):  # just above rounding, and a nearest pair exact to rounding
             figure = work_precision.draw([shift(error)])
             figure.canvas.draw()
             for axes in figure.axes[:2]:
@@ -293,7 +293,7 @@ class FigureTest(ScriptsTest):
         figure = figure7.draw(result)
         keys = [[text.get_text() for text in legend.get_texts()] for legend in figure.legends]
         for row, (plot, label, _) in enumerate(figure7.ROWS):
-            searching = plot is figure7.plot_searches  # whose rows only those have who search at a rate of their own
+            searching = plot is figure7.plot_searches  # rows for methods with a search rate
             for name in ("original", "improved", "certified", "exhaustive"):
                 self.assertEqual(any(key.startswith(name) for key in keys[row]), not searching or name in ("original", "improved"), (label, name))
         self.assertGreaterEqual(len(figure.axes[0].lines), 4 + 2, "methods and truths")
@@ -338,7 +338,7 @@ class ClaimsTest(ScriptsTest):
                     "K7": "does not hold", "K8": "not measured", "K9": "holds", "K10": "does not hold"}
         self.assertEqual({name: claim.setting for name, claim in rows.items()}, expected)
         self.assertEqual(rows["K7"].because, "not: less so when soft")
-        self.assertIn("undecided: the improved force switches", rows["K1"].because)  # a second is too short to tell
+        self.assertIn("undecided: the improved force switches", rows["K1"].because)  # a second is too short
 
     def test_what_holds_here_is_said_once(self):
         rows = self.verdicts(self.hard, self.soft)

@@ -58,7 +58,7 @@ class PressFit(Scratch):
 
     def test_contacts_pair_off_one_with_one(self):
         here = np.array([[0.0, 0.0, 0.0], [1e-4, 0.0, 0.0], [0.01, 0.0, 0.0]])
-        self.assertEqual(list(press_fit.unmatched(here, here[:1])), [1, 2])  # two near one: one of them is new
+        self.assertEqual(list(press_fit.unmatched(here, here[:1])), [1, 2])  # two near one: one is new
         self.assertEqual(list(press_fit.unmatched(here, here[::-1])), [])
         self.assertEqual(list(press_fit.unmatched(here[:0], here)), [])
 

@@ -56,7 +56,7 @@ class Register(unittest.TestCase):
                 if commit == ADDED:
                     self.assertTrue(git("log", "--format=%h", "--", f"results/reference/{row.files[0]}").stdout.strip(), row.files)
                     continue
-                # of the history, not only of the store: a clone brings no commit that nothing leads to
+                # in the history, not only in the store: a clone has no unreachable commits
                 self.assertEqual(git("merge-base", "--is-ancestor", commit, "HEAD").returncode, 0, (row.files, commit))
 
     def test_what_is_older_than_its_code_says_so(self):
@@ -81,7 +81,7 @@ More words.
 
 class Pages(unittest.TestCase):
     """What a reader of a page meets."""
-    JUDGED = ("triangle_accuracy.md", "triangle_accuracy_million.md")  # a test reads them as the program prints them
+    JUDGED = ("triangle_accuracy.md", "triangle_accuracy_million.md")  # a test compares them with the program's output
 
     def pages(self):
         return {file: text_of(FOLDER, file) for row in rows() for file in row.files if file.endswith(".md")}

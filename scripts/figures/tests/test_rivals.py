@@ -44,7 +44,7 @@ class Measures(Scratch):
     def test_a_path_is_subdivided_evenly(self):
         half = np.sqrt(0.5)
         position = np.array([[0.0, 0, 0], [1.0, 0, 0], [1.0, 2.0, 0]])
-        orientation = np.array([[0, 0, 0, 1.0], [0, 0, -half, -half], [0, 0, half, half]])  # the second is the third, negated
+        orientation = np.array([[0, 0, 0, 1.0], [0, 0, -half, -half], [0, 0, half, half]])  # 2 is 3 negated
         places, turns = rivals.subdivided(position, orientation, 10)
         self.assertEqual(len(places), 21)
         np.testing.assert_allclose(places[[0, 5, 10, 15, 20]], [[0, 0, 0], [0.5, 0, 0], [1, 0, 0], [1, 1, 0], [1, 2, 0]])

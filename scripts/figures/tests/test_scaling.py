@@ -47,7 +47,7 @@ class ScalingTest(Scratch):
         points = [point(n) for n in (1000, 4000, 16000)]
         for method, exponent in EXPONENTS.items():
             slope, low, high = scaling.slope_with_interval(scaling.triangles(points), scaling.samples(points, method))
-            # All poses grow alike, so it does not matter which of them are drawn.
+            # All poses grow alike, so any sample of them will do.
             np.testing.assert_allclose([slope, low, high], exponent, atol=1e-9)
 
     def test_the_interval_holds_the_slope_and_tells_unequal_poses(self):

@@ -266,7 +266,7 @@ class Verdicts(SweepScratch):
         found = self.sweep(rows, "claim-k1")
         self.assertEqual(list(claim_regions.k4(found)[1].values()), [claim_regions.HOLDS])
         self.assertEqual(list(claim_regions.k2(found)[1].values()), [claim_regions.FAILS, claim_regions.HOLDS])
-        # More LMDs than 1.5 times as many are not similar, however much the original's fluctuates.
+        # A mean 1.5 times as large is not similar, however much the original's fluctuates.
         rows = [{**entry, "lmd_count_mean": 2 * entry["lmd_count_mean"]} if entry["method"] == "original" else entry for entry in rows]
         self.assertEqual(list(claim_regions.k4(self.sweep(rows))[1].values()), [claim_regions.FAILS])
 

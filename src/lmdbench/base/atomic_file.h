@@ -10,15 +10,15 @@
 
 namespace lmdbench {
 
-/// Writes a file so that it has its old content or the whole new one, whenever the program ends: to a file of
-/// its own beside it (`.<name>.<process>-<n>.part`, made exclusively), flushed, then renamed. Two writers of one name
-/// do not meet: each writes its own part and the later one stands. Missing folders are made. What has the name
-/// is replaced, a symbolic link itself and not where it leads; `refuse_unsafe_output` comes before.
-/// @throws EnvironmentError when the disk or the permissions do not allow it; the part is then removed
+/// Writes a file so that it has its old content or the whole new one, whenever the program ends: to
+/// a part of its own beside it (`.<name>.<process>-<n>.part`, made exclusively), flushed, then
+/// renamed. Two writers of one name each have their own part; the later one wins. Makes missing
+/// folders. Replaces whatever has the name, a symbolic link too; call `refuse_unsafe_output` first.
+/// @throws EnvironmentError when disk or permissions do not allow it; the part is then removed
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
 /// The same; the new file stays open for reading and writing.
-/// @param before_rename  is given the new file before it takes its name, for a lock
+/// @param before_rename  gets the new file before it takes its name, to lock it
 FileDescriptor replace_file(const std::filesystem::path& file, std::string_view content,
                             const std::function<void(int descriptor)>& before_rename);
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 #include <lmdbench_build_settings.h>  // made by CMake at configure time
-#include <lmdbench_git_state.h>  // made by git_state.cmake at every build, changed only when git's state changes
+#include <lmdbench_git_state.h>       // made by git_state.cmake at every build
 
 #include <algorithm>
 #include <system_error>

@@ -26,7 +26,7 @@ struct BuildInfo {
 /// The git state is that of the moment of the build, not of the configuration.
 const BuildInfo& build_info();
 
-/// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions": the text of `--version`.
+/// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions", for `--version`.
 std::string version_text();
 
 /// A library that a build may do without (the options LMDBENCH_WITH_... of CMakeLists.txt).
@@ -41,15 +41,15 @@ inline constexpr OptionalPart PART_ASSIMP{"assimp", "LMDBENCH_WITH_ASSIMP", "lib
 inline constexpr OptionalPart PART_HDF5{"HDF5", "LMDBENCH_WITH_HDF5",
                                         "libhdf5-dev libboost-dev libxxhash-dev"};
 
-/// What this build lacks and somebody asks for: the message names the part, its package and its option.
-/// @param file,place where it is asked for; may be empty
-/// @param what       that needs it
+/// The error about a part that this build lacks; the message names it, its package and its option.
+/// @param file,place where it is needed; may be empty
+/// @param what       needs it
 EnvironmentError missing_part(const OptionalPart& part, const std::string& file, const std::string& place,
                               const std::string& what);
 
-/// Where the running program's data are: `share/lmdbench` beside the folder of an installed program (`bin/`), or beside
-/// the program itself in a build tree, where it is a link to the sources. It holds `scripts/`, `experiments/`, `meshes/`
-/// and `paths/`. Found from the place of the program, so that an installed tree may be moved.
+/// Folder of the running program's data: `share/lmdbench` beside the folder of an installed program
+/// (`bin/`), or beside the program in a build tree, where it links to the sources. It holds
+/// `scripts/`, `experiments/`, `meshes/` and `paths/`. An installed tree may be moved.
 /// @return empty where there is no such folder
 std::filesystem::path data_folder();
 

@@ -45,7 +45,7 @@ constexpr int OUT_OF_MEMORY = 41;
 constexpr int THREW = 42;
 constexpr int NOBODY_READS = 43;
 
-/// A child that has used little processor time after this multiple of its limit waits for something.
+/// A child with little processor time after this multiple of its limit waits for something.
 constexpr int WALL_CLOCK_FACTOR = 20;
 
 /// Address space of this process [bytes]; 0 where the system does not tell.

@@ -20,9 +20,9 @@ struct ChildLimits {
   std::int64_t memory_bytes = 0;  ///< Beyond what this process has when the child starts.
 };
 
-/// Work in a forked copy of this process, for code that may loop, crash or eat memory on hostile input: the
-/// harm stays in the copy. The copy has one thread, no standard output or error, and ends with its parent.
-/// It must not use what other threads may have held locked at the fork; memory allocation is fine.
+/// Work in a forked copy of this process, for code that may loop, crash or eat memory on hostile
+/// input: the harm stays in the copy. It has one thread, no standard output or error, and ends with
+/// its parent. It may allocate memory, but use nothing else that was perhaps locked at the fork.
 class ChildProcess {
  public:
   /// Sends bytes to the parent; ends the child when nobody reads any more.
@@ -34,11 +34,11 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Fills the span with what the child sends next; false when the child ended before, or needs far longer
-  /// than its processor time explains (it waits for something that will not come).
+  /// Fills the span with what the child sends next. False when the child ended before, or when it
+  /// needs far longer than its processor time explains (it waits for something).
   bool receive(std::span<std::byte> bytes);
 
-  /// Why a child that sent too little ended, in words: "crashed (signal 11)", "used up its 60 s of processor
+  /// Why a child that sent too little ended: "crashed (signal 11)", "used up its 60 s of processor
   /// time". Waits for its end.
   std::string end_in_words();
 

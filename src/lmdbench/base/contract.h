@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Contracts: what a function and its callers owe each other, said where it is relied on. A contract that does not hold is a bug of
-/// ours, whatever the input was: the program prints the condition, its place and the likely cause, and aborts. What a user's file or
-/// command may get wrong is no contract; it throws (error.h).
+/// Contracts between a function and its callers, written where they are relied on. A broken one is
+/// a bug of ours, whatever the input: the program prints condition, place and likely cause, and
+/// aborts. A mistake in a user's file or command breaks no contract; it throws (error.h).
 ///
-/// LMDBENCH_EXPECTS  before, LMDBENCH_ENSURES after: in builds that look for defects (option LMDBENCH_CONTRACTS: presets develop,
-///                   debug, asan-ubsan, tsan, fuzz, coverage). Elsewhere the condition is compiled and never evaluated. May cost what
-///                   the function itself costs.
-/// LMDBENCH_ALWAYS   in every build, where going on would write outside memory or report a wrong number. Must cost next to nothing.
+/// LMDBENCH_EXPECTS (before) and LMDBENCH_ENSURES (after): evaluated with option LMDBENCH_CONTRACTS
+/// (presets develop, debug, asan-ubsan, tsan, fuzz, coverage), elsewhere only compiled. May cost as
+/// much as the function itself.
+/// LMDBENCH_ALWAYS: in every build, against writes outside memory and wrong numbers; almost free.
 namespace lmdbench {
 
-/// Prints "contract broken: CONDITION (FILE:LINE): CAUSE" and aborts. The file without its folder: an installed library names no folder of
-/// the machine that built it.
+/// Prints "contract broken: CONDITION (FILE:LINE): CAUSE" and aborts. FILE has no folder: an
+/// installed library names no folder of the machine that built it.
 [[noreturn]] void contract_broken(const char* condition, const char* file, int line,
                                   const char* likely_cause) noexcept;
 

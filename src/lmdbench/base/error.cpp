@@ -6,7 +6,7 @@
 namespace lmdbench {
 namespace {
 
-/// Bytes of one part of a message: a long path and a list of forty names fit.
+/// Longest part of a message [bytes]: a long path and a list of forty names fit.
 constexpr std::size_t LONGEST_PART = 2000;
 
 }  // namespace

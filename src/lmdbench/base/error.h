@@ -19,8 +19,8 @@ enum class ExitCode : int {
   INTERNAL = 70      ///< A bug of ours.
 };
 
-/// What every message names: the file, the place in it, what is wrong there and what to do about it. Parts may
-/// hold content of hostile files: they are made `printable`, and long ones are cut so that the remedy is read.
+/// Every message names the file, the place in it, the problem and the remedy. Content of hostile
+/// files is made `printable`, and long parts are cut so that the remedy is read.
 class Error : public std::runtime_error {
  public:
   /// @param code    exit code of the program when nobody handles the error

@@ -35,11 +35,11 @@ class FileDescriptor {
   int descriptor_ = -1;
 };
 
-/// Locks a whole file against other processes, of other machines too where the file system says so. Released when the open
-/// file is closed, however its process ends. An open-file-description lock, because HDF5 takes a `flock` of its own on the
-/// same file.
+/// Locks a whole file against other processes (on other machines, too, if the file system does
+/// that) until the open file is closed, however its process ends. An open-file-description lock,
+/// because HDF5 takes a `flock` of its own on the same file.
 /// @param descriptor open for writing
-/// @return false when another process holds the lock. A file system without locks counts as locked: work goes on without.
+/// @return false when another process holds the lock; true on a file system without locks
 bool lock_whole_file(int descriptor);
 
 }  // namespace lmdbench

@@ -9,7 +9,7 @@
 namespace lmdbench {
 
 /// SHA-256 of a file's bytes, lower-case hexadecimal.
-/// @throws InputError when it is no regular file, cannot be read or is larger than `Limit::FILE_BYTES`
+/// @throws InputError when it is not regular, not readable or larger than `Limit::FILE_BYTES`
 std::string sha256_of_file(const std::filesystem::path& file);
 
 /// SHA-256 of the bytes of a text, lower-case hexadecimal.

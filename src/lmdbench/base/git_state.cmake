@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs at every build: writes the commit and whether the sources differ from it into a header, and touches the header
-# only when that changed, so that nothing is recompiled in vain. Outside a working copy both are "unknown".
+# Runs at every build: writes the commit and whether the sources differ from it into a header, which
+# it touches only on a change, to recompile nothing in vain. Outside a working copy: "unknown".
 # Arguments: -D SOURCE_DIR=... -D OUTPUT=... -P git_state.cmake
 cmake_minimum_required(VERSION 3.25)
 set(commit "unknown")
 set(dirty "unknown")
 find_program(GIT_PROGRAM git)
 if(GIT_PROGRAM)
-  # Optional locks are off: a build must not get in the way of git commands that run beside it.
+  # No optional locks: a build must not get in the way of git commands that run at the same time.
   set(git "${GIT_PROGRAM}" --no-optional-locks -C "${SOURCE_DIR}")
   execute_process(COMMAND ${git} rev-parse --show-prefix HEAD
                   RESULT_VARIABLE failed OUTPUT_VARIABLE answer ERROR_QUIET)
-  # An exported copy that lies inside another repository has a prefix: that repository's commit is not ours.
+  # An exported copy inside another repository has a prefix: that repository's commit is not ours.
   if(NOT failed AND answer MATCHES "^\n([0-9a-f]+)\n$")
     set(commit "${CMAKE_MATCH_1}")
     execute_process(COMMAND ${git} status --porcelain --untracked-files=no

@@ -24,7 +24,7 @@
 namespace lmdbench {
 namespace {
 
-/// What a file is that is no regular one; "no regular file" for anything exotic.
+/// The kind of a file that is not regular; "no regular file" for an exotic one.
 const char* kind_of(mode_t mode) {
   if (S_ISDIR(mode)) return "a directory";
   if (S_ISFIFO(mode)) return "a FIFO";
@@ -33,8 +33,8 @@ const char* kind_of(mode_t mode) {
   return "no regular file";
 }
 
-/// For a name that leads nowhere: where it leaves what exists, and the name there that is likely meant; empty where
-/// there is none.
+/// Remedy for a missing file: the first part of its path that does not exist, and the name there
+/// that is likely meant; empty without one.
 std::string likely_name(const std::filesystem::path& file) {
   constexpr std::size_t MOST_NAMES = 10000;
   std::filesystem::path here = file.is_absolute() ? "" : ".";
@@ -88,7 +88,7 @@ void refuse_unless_regular(const std::filesystem::path& file, const InputKind& k
 
 FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind) {
   const Refusal refuse{file, kind};
-  // Looked at before it is opened: opening alone can make a device act.
+  // Checked before it is opened: opening alone can make a device act.
   refuse_unless_regular(file, kind);
   // Not blocking: between the two calls a FIFO may have taken the name.
   const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));

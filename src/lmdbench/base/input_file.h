@@ -13,7 +13,7 @@
 
 namespace lmdbench {
 
-/// What a reader of a file knows about it beforehand, for messages and limits.
+/// A reader's knowledge of a file, for messages and limits.
 struct InputKind {
   std::string what;                      ///< "mesh", "path", "experiment file"
   ExitCode code = ExitCode::INPUT_DATA;  ///< Of a file that cannot be read: this or USAGE.
@@ -21,24 +21,24 @@ struct InputKind {
   std::string remedy = "check the name and the permissions";  ///< For a file that is not there.
 };
 
-/// A file's bytes, read once: what is parsed is what is hashed, whatever happens to the file meanwhile.
+/// A file's bytes, read once: the parsed bytes are the hashed ones, even if the file changes.
 struct FileContent {
   std::filesystem::path file;
   std::string bytes;
   std::string sha256;  ///< Of the bytes, lower-case hexadecimal.
 };
 
-/// For files that a library opens by name: refuses what `read_input_file` would refuse before it reads.
+/// For files that a library opens by name: refuses them as `read_input_file` would before reading.
 /// @throws InputError or UsageError: no such file, no regular file
 void refuse_unless_regular(const std::filesystem::path& file, const InputKind& kind);
 
-/// Reads a regular file. Directories, devices, FIFOs and sockets are refused without waiting for them;
-/// symbolic links to regular files are followed.
-/// @throws InputError, or UsageError where the kind's code says so: no such file, no regular file, larger than the limit, unreadable
+/// Reads a regular file; follows symbolic links to one. Refuses directories, devices, FIFOs and
+/// sockets without waiting for them.
+/// @throws InputError (or UsageError: kind.code): missing, not regular, too large, unreadable
 FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind);
 
-/// Goes through text whose lines hold numbers, separated by blanks or commas; `#` begins a comment. Lines without a number are left
-/// out.
+/// Goes through text whose lines hold numbers, separated by blanks or commas; `#` begins a comment.
+/// Skips lines without a number.
 /// @param name for messages
 /// @param remedy what a line should hold, for messages
 /// @param use gets the place of a line, for messages ("line 7"), and its numbers

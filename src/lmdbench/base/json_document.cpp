@@ -28,7 +28,7 @@ JsonDocument::JsonDocument(std::string text, std::string file, const nlohmann::j
     json_ = parse_json(text_, file_);
     for (const std::string& entry : overrides_) override_with(entry, schema);
     if (early) early(json_);
-    // The validator goes last but one: a misspelt key would else be reported as a missing one.
+    // Unknown keys first: the validator would report a misspelt key as a missing one.
     refuse_unknown_keys(json_, schema, file_);
     validate_against_schema(json_, schema, file_);
     fill_defaults(json_, schema);
@@ -63,7 +63,7 @@ void JsonDocument::rethrow(const Error& error) const {
   if (!message.starts_with(about_this_file)) throw_error(error.code(), "", "", message, "");
   const std::string rest = message.substr(about_this_file.size());
   const std::size_t end = rest.find(": ");
-  // Checks that serve several kinds of files throw usage errors; this file's kind knows better.
+  // Checks for several kinds of files throw usage errors; this file has its own code.
   const ExitCode code = error.code() == ExitCode::USAGE ? code_ : error.code();
   const bool points =
       rest.starts_with("/") && end != std::string::npos && !rest.substr(0, end).ends_with(")");
@@ -72,7 +72,7 @@ void JsonDocument::rethrow(const Error& error) const {
 }
 
 std::string JsonDocument::place(const std::string& pointer) const {
-  // What --set gave stands in no line; the user has just typed it.
+  // A value of --set is in no line; the user has just typed it.
   for (const std::string& entry : overrides_) {
     const std::string target = entry.substr(0, entry.find('='));
     if (pointer == target || pointer.starts_with(target + "/") || target.starts_with(pointer + "/"))

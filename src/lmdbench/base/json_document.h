@@ -10,17 +10,17 @@
 #include <string>
 #include <vector>
 
-/// The one way that JSON files are read: every kind has a schema (draft 7) that names each key, its meaning and its
-/// default, and every message names file, JSON pointer, line and remedy.
+/// The one way to read JSON files. Every kind has a schema (draft 7) that names each key, its
+/// meaning and default; every message names file, JSON pointer, line and remedy.
 namespace lmdbench {
 
 class JsonDocument {
  public:
-  /// Parses, applies overrides ("/json/pointer=value"; each replaces what the file gives that excludes it), refuses keys that the schema does not know (suggesting the
-  /// nearest), checks against the schema and adds what is absent and has a default.
-  /// @param schema outlives nothing: it is read here only
-  /// @param code   of the errors: USAGE for what a user writes to command the program, INPUT_DATA for data
-  /// @param early  what is to be said or added before the schema is asked, because it knows more; throws
+  /// Parses, applies overrides ("/json/pointer=value"; each removes values of the file that exclude
+  /// it), refuses unknown keys (suggesting the nearest), validates, then adds defaults.
+  /// @param schema need not outlive the call
+  /// @param code   of the errors: USAGE for a user's commands to the program, INPUT_DATA for data
+  /// @param early  checks or adds before the schema is asked, where it knows more; throws
   /// @throws UsageError or InputError
   JsonDocument(std::string text, std::string file, const nlohmann::json& schema, ExitCode code,
                std::vector<std::string> overrides = {},
@@ -29,7 +29,7 @@ class JsonDocument {
   const nlohmann::json& json() const { return json_; }
   nlohmann::json& json() { return json_; }
   const std::string& text() const { return text_; }
-  /// What overrides replaced beside their own value, in words.
+  /// In words: values of the file that overrides removed.
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// For what a schema cannot say.
@@ -37,7 +37,7 @@ class JsonDocument {
   [[noreturn]] void fail(const std::string& pointer, const std::string& problem,
                          const std::string& remedy) const;
 
-  /// Runs what may throw an `Error` whose place is a JSON pointer into this file, and adds the line to it.
+  /// Runs a check; to an `Error` whose place is a JSON pointer into this file it adds the line.
   template <typename Check>
   auto locate(const Check& check) const {
     try {

@@ -29,14 +29,14 @@ const Json& follow(const Json& schema, const Json& root) {
   return reference == schema.end() ? schema : root.at(Pointer(reference->get<std::string>().substr(1)));
 }
 
-/// What a schema without named keys says of every key (an object that is a map); null where it says nothing.
+/// The schema of every key of an object that is a map (no named keys); null where there is none.
 const Json* schema_of_other_keys(const Json& schema) {
   const auto other = schema.find("additionalProperties");
   const bool is_map = other != schema.end() && other->is_object() && !schema.contains("properties");
   return is_map ? &*other : nullptr;
 }
 
-/// Whether the constants that an "if" names are those of the object.
+/// Whether the object has the constants of an "if".
 bool holds(const Json& condition, const Json& object) {
   if (!object.is_object()) return false;
   for (const auto& [key, property] : condition["properties"].items())
@@ -44,8 +44,7 @@ bool holds(const Json& condition, const Json& object) {
   return true;
 }
 
-/// The schemas that hold for a value: its own, and of its "allOf" every "then" whose "if" names the value's
-/// constants.
+/// The schemas that hold for a value: its own, and every "then" of its "allOf" whose "if" it meets.
 std::vector<const Json*> schemas_for(const Json& value, const Json& schema_or_reference, const Json& root) {
   const Json& schema = follow(schema_or_reference, root);
   std::vector<const Json*> result{&schema};
@@ -55,7 +54,7 @@ std::vector<const Json*> schemas_for(const Json& value, const Json& schema_or_re
   return result;
 }
 
-/// Which constants would give the object a key that it must not have: in words, or nothing where none would.
+/// The constants that would allow the object a key, in words; empty where none would.
 std::string where_it_exists(const std::string& key, const Json& choices) {
   std::map<std::string, std::vector<std::string>> constants;  // by the property that has them
   for (const Json& choice : choices)
@@ -69,7 +68,7 @@ std::string where_it_exists(const std::string& key, const Json& choices) {
   return text;
 }
 
-/// The present keys that must not stand beside another one.
+/// The present keys that must not be beside another one.
 std::vector<std::string> excluded_keys(const Json& object, const std::string& key, const Json& schema) {
   std::vector<std::string> excluded;
   if (!schema.contains("dependencies")) return excluded;
@@ -134,7 +133,7 @@ void fill(Json& value, const Json& schema_or_reference, const Json& root) {
   }
 }
 
-/// The part of the schema that describes the document's value at `place`; an empty object when there is none.
+/// The schema of the document's value at `place`; an empty object when there is none.
 Json schema_at(const std::vector<std::string>& place, const Json& root, const Json& document) {
   const Json* schema = &root;
   const Json* value = &document;
@@ -155,8 +154,8 @@ Json schema_at(const std::vector<std::string>& place, const Json& root, const Js
   return follow(*schema, root);
 }
 
-/// The validator's form of a schema. It is kept: making it takes longer than most documents take to check, and a sweep
-/// checks one document a point.
+/// The validator's form of a schema, kept: making it takes longer than checking most documents, and
+/// a sweep checks one document a point.
 const valijson::Schema& prepared(const Json& schema) {
   static std::mutex mutex;
   static std::map<Json, std::unique_ptr<const valijson::Schema>> known;
@@ -171,7 +170,7 @@ const valijson::Schema& prepared(const Json& schema) {
   return *place->second;
 }
 
-/// What a value must be, in words, from its part of the schema.
+/// Description of the values that a schema allows.
 std::string expectation(const Json& schema) {
   std::string text;
   if (schema.contains("type"))
@@ -218,13 +217,13 @@ void validate_against_schema(const Json& document, const Json& schema_json, cons
   thread_local valijson::Validator validator;  // keeps the patterns that it has compiled
   if (validator.validate(prepared(schema_json), target, &results)) return;
 
-  // The validator reports the innermost violation first, then every enclosing
-  // object: only the first one helps.
+  // The validator reports the innermost violation first, then every enclosing object: only the
+  // first helps.
   valijson::ValidationResults::Error error;
   results.popError(error);
   std::vector<std::string> place;
   Pointer pointer;
-  for (std::size_t i = 1; i < error.context.size(); ++i) {  // context[0] is "<root>", the rest "[key]"
+  for (std::size_t i = 1; i < error.context.size(); ++i) {  // [0]: "<root>", else "[key]"
     place.push_back(error.context[i].substr(1, error.context[i].size() - 2));
     pointer /= place.back();
   }
@@ -241,10 +240,10 @@ void fill_defaults(Json& document, const Json& schema) {
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
   std::string nearest;
-  // A slip is a third of the word at most; farther words would be guesses.
+  // A slip changes a third of the word at most; farther words would be guesses.
   std::size_t least = std::max<std::size_t>(word.size() / 3, 1) + 1;
   for (const std::string& candidate : candidates) {
-    // Levenshtein distance, one row at a time; two neighbours that are swapped are one slip, too.
+    // Levenshtein distance, one row at a time; two swapped neighbours are one slip, too.
     std::vector<std::size_t> row(candidate.size() + 1), above, above_that;
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < word.size(); ++i) {

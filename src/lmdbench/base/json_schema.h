@@ -12,11 +12,11 @@
 /// the nearest known one) and defaults.
 namespace lmdbench {
 
-/// Keys that the schema does not know are refused wherever it says "additionalProperties": false. Properties
-/// that exist only beside certain values are given by "allOf": [{"if": {"properties": {KEY: {"const":
+/// Refuses keys unknown to the schema wherever it says "additionalProperties": false, and keys that
+/// exclude each other by "dependencies": {KEY: {"properties": {OTHER: false}}}. Properties that
+/// exist only beside certain values are given by "allOf": [{"if": {"properties": {KEY: {"const":
 /// VALUE}}}, "then": SCHEMA}].
-/// Keys that exclude each other, given by "dependencies": {KEY: {"properties": {OTHER: false}}}, are refused as well.
-/// @throws UsageError with the JSON pointer of the first such key or of the object that has two that exclude each other
+/// @throws UsageError with the JSON pointer of the first such key, or of the object that has two
 void refuse_unknown_keys(const nlohmann::json& document, const nlohmann::json& schema,
                          const std::string& file);
 
@@ -33,8 +33,8 @@ void validate_against_schema(const nlohmann::json& document, const nlohmann::jso
 /// Adds every absent property that has a "default" (and applies), to any depth.
 void fill_defaults(nlohmann::json& document, const nlohmann::json& schema);
 
-/// The candidate nearest to `word` by edit distance (swapped neighbours are one edit), or an empty string when none
-/// is near enough to be a slip.
+/// The candidate nearest to `word` by edit distance (swapped neighbours are one edit), or an empty
+/// string when none is near enough to be a slip.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace lmdbench

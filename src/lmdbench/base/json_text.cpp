@@ -31,8 +31,8 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
                    "shorten it, or " + raise_remedy(limit));
 }
 
-/// Watches a parser at work: repeated keys, depth, length of texts. Throws for the last two, so that hostile
-/// text is not read to its end.
+/// Watches a parser: repeated keys, depth, length of texts. Throws for the last two, so that
+/// hostile text is not read to its end.
 class ParseWatch {
  public:
   ParseWatch(std::string file, std::string place) : file_(std::move(file)), place_(std::move(place)) {}

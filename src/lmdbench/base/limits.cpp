@@ -16,8 +16,8 @@ constexpr std::int64_t MIB = std::int64_t{1} << 20;
 constexpr std::int64_t GIB = std::int64_t{1} << 30;
 constexpr auto LIMIT_COUNT = static_cast<std::size_t>(Limit::COUNT);
 
-/// Upper bounds: vertices, edges and corners are counted in 32 bits; the checks of JSON documents go down by
-/// recursion and their patterns by recursion along a text.
+/// Upper bounds: vertices, edges and corners are counted in 32 bits; checks of JSON documents
+/// recurse in their depth and patterns along a text.
 constexpr std::array<LimitInfo, LIMIT_COUNT> TABLE{{
     {Limit::FILE_BYTES, "file-bytes", 4 * GIB, 64 * GIB, "bytes of a mesh or path file"},
     {Limit::JSON_BYTES, "json-bytes", 16 * MIB, GIB, "bytes of a JSON file"},

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-/// How much of anything an input may ask for. Files come from everywhere: what is larger than any honest one is
-/// refused before it costs minutes or the machine's memory, by a message that names the limit.
+/// Limits of inputs. Files come from everywhere: a file larger than any honest one is refused, with
+/// the limit's name, before it costs minutes or the machine's memory.
 namespace lmdbench {
 
 enum class Limit : std::uint8_t {
@@ -26,7 +26,7 @@ enum class Limit : std::uint8_t {
   PATH_SECONDS,      ///< Processor time to make or check a path.
   FRAMES,            ///< Haptic frames of a run or a path.
   BODIES,            ///< Fixed meshes of an experiment.
-  PLUGIN_SECONDS,    ///< Of the clock, for one answer of a plugin in a process of its own.
+  PLUGIN_SECONDS,    ///< Wall clock, for one answer of a plugin in a process of its own.
   PLUGIN_BYTES,      ///< Memory of that process.
   COUNT
 };
@@ -35,7 +35,7 @@ struct LimitInfo {
   Limit limit;
   std::string_view name;  ///< As `--limit NAME=NUMBER` takes it.
   std::int64_t usual;     ///< Without an option.
-  std::int64_t most;      ///< An option cannot ask for more: beyond it the program itself would break.
+  std::int64_t most;      ///< No option may ask for more: the program itself would break.
   std::string_view meaning;
 };
 
@@ -44,12 +44,12 @@ std::span<const LimitInfo> limit_table();
 
 std::int64_t limit_of(Limit limit);
 
-/// Sets a limit for the whole process, from text "NAME=NUMBER". For the start of a program: readers on other
-/// threads would see it at any moment.
+/// Sets a limit for the whole process, from text "NAME=NUMBER". Only at the start of a program:
+/// readers on other threads would see it at once.
 /// @throws UsageError for an unknown name and for a number that is not from 1 to `most`
 void set_limit(const std::string& text);
 
-/// "raise it with --limit frames=NUMBER": the end of a remedy. Say first what else could be done.
+/// "raise it with --limit frames=NUMBER": the end of a remedy, after other advice.
 std::string raise_remedy(Limit limit);
 
 }  // namespace lmdbench

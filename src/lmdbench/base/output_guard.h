@@ -22,19 +22,19 @@ struct OutputKind {
 void refuse_standard_output(const std::filesystem::path& file, const std::string& what,
                             const std::string& option);
 
-/// Makes sure that writing a file replaces nothing but an earlier output of the same kind: the name is free, or
-/// names an empty file or one of ours. Symbolic links are refused, dangling ones too, as are directories,
-/// devices, FIFOs, foreign files, and whatever is one of the inputs by any name (hard links included); `-` as well.
+/// Makes sure that writing a file replaces nothing but an earlier output of the same kind: the name
+/// is free, an empty file or one of ours. Refused: `-`, symbolic links (dangling ones, too),
+/// directories, devices, FIFOs, foreign files, and any input under any name (hard links, too).
 /// @param option  that named the file, for the remedy: "--out"
 /// @throws UsageError; nothing was touched
 void refuse_unsafe_output(const std::filesystem::path& file, const OutputKind& kind,
                           const std::vector<std::filesystem::path>& inputs, const std::string& option);
 
-/// Whether the file begins with a text of at most 4096 bytes; false where it cannot be read. Links are not
-/// followed.
+/// Whether the file begins with a text of at most 4096 bytes; false where it cannot be read. Does
+/// not follow links.
 bool file_begins_with(const std::filesystem::path& file, std::string_view start);
 
-/// The first 4096 bytes of a regular file, fewer where it is shorter; empty where it cannot be read.
+/// The first 4096 bytes of a regular file, or all of a shorter one; empty where it cannot be read.
 std::string first_bytes(const std::filesystem::path& file);
 
 }  // namespace lmdbench

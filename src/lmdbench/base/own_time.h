@@ -4,8 +4,8 @@
 
 namespace lmdbench {
 
-/// Seconds of this thread, since somebody set it to 0, that passed within a method and are not the method's: the way to and from a
-/// method from outside and the judgement of its answers (plugin/). Who times a method takes them off.
+/// Seconds of this thread, counted since they were set to 0, within a method but not its own:
+/// hand-over to a plugin and checks of its contacts (plugin/). Timers subtract them.
 inline double& seconds_of_others() {
   thread_local double seconds = 0.0;
   return seconds;

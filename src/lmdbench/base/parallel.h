@@ -19,10 +19,10 @@
 #include <tbb/parallel_invoke.h>
 #endif
 
-/// Loops over several threads. They run on oneTBB; in builds without it and under the thread sanitizer
-/// (LMDBENCH_VISIBLE_THREADS) on std::thread, because the distribution's oneTBB is not instrumented: the sanitizer cannot
-/// see how its tasks wait for one another, and reports each hand-over as a race. What our own code does in the loops it
-/// then sees whole. Where one range is all there is, no pool of threads is made.
+/// Loops over several threads, on oneTBB. On std::thread in builds without it and under the thread
+/// sanitizer (LMDBENCH_VISIBLE_THREADS): the distribution's oneTBB is not instrumented, so the
+/// sanitizer cannot see how its tasks wait for one another and reports each hand-over as a race. A
+/// single range makes no pool of threads.
 namespace lmdbench {
 
 #ifdef LMDBENCH_VISIBLE_THREADS

@@ -56,14 +56,14 @@ void refuse_directory(const std::filesystem::path& file) {
   }
 }
 
-/// Whether what an interrupted run may have left: nothing yet, or the start of a result file.
+/// Whether an interrupted run may have left this: nothing yet, or the start of a result file.
 bool looks_like_a_part(const std::filesystem::path& part) {
   constexpr std::string_view HDF5_SIGNATURE = "\x89HDF\r\n\x1a\n";
   const std::string head = first_bytes(part);
   return head.empty() || head.starts_with(HDF5_SIGNATURE);
 }
 
-/// A process that read the part for a run that was killed holds the lock with it, and ends a moment after it.
+/// A process that reads the part for a killed run still holds the lock, but ends a moment later.
 bool lock_in_time(int descriptor) {
   constexpr std::chrono::milliseconds LONGEST_WAIT{1000}, PAUSE{10};
   for (auto waited = PAUSE; !lock_whole_file(descriptor); waited += PAUSE) {
@@ -90,9 +90,9 @@ PartFile::PartFile(std::filesystem::path final_name) : final_name_(std::move(fin
 }
 
 void PartFile::open_and_lock() {
-  // A run that commits between our open and our lock renames the file that we hold: then open the new one.
+  // A run may rename the file that we hold between our open and our lock: then open the new one.
   while (true) {
-    // New, or else what an earlier run left: never through a link, never into a file of somebody else.
+    // New, or left by an earlier run: never through a link, never into a file of somebody else.
     const auto open = [this](int flags) {
       descriptor_ = FileDescriptor(::open(part_name_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0666));
     };
@@ -125,21 +125,21 @@ bool PartFile::is_empty() const {
 }
 
 void PartFile::write(std::string_view content) {
-  // Locked before it takes the name, so that the part is ours at any moment; the old one may go.
+  // Locked before it takes the name, so that the part is ours at any moment.
   FileDescriptor replacement = replace_file(part_name_, content, [](int file) { lock_whole_file(file); });
   descriptor_ = std::move(replacement);
 }
 
 void PartFile::remove() {
-  // Afterwards the name may be another run's.
+  // Later the name may be another run's.
   if (!std::exchange(removed_, true)) ::unlink(part_name_.c_str());
 }
 
 void PartFile::publish(std::string_view content) {
   refuse_directory(final_name_);
   write_file_atomically(final_name_, content);
-  // The rename itself is durable only when its directory is on the disk. Some file systems refuse this; the
-  // result is complete and named by then, so that is not an error.
+  // The rename is durable only when its directory is on the disk. Some file systems refuse that; it
+  // is no error, because the result is complete and named by then.
   const int directory = ::open(directory_of(final_name_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory >= 0) {
     static_cast<void>(::fsync(directory));

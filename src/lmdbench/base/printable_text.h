@@ -7,13 +7,13 @@
 
 namespace lmdbench {
 
-/// Text that is safe to show on a terminal, whatever file it came from: control characters (of ASCII, and the
-/// second set U+0080 to U+009F, which some terminals obey), marks that turn the direction of writing, and bytes
-/// that are no UTF-8 become \xNN; line ends and tabs too, because a message is one line. Everything else, the
-/// backslash included, stays.
+/// Text that is safe on a terminal, whatever file it came from. Control characters (of ASCII, and
+/// U+0080 to U+009F, which some terminals obey), marks that turn the direction of writing, and
+/// bytes that are not UTF-8 become \xNN; line ends and tabs too, because a message is one line.
+/// Everything else stays, the backslash included.
 std::string printable(std::string_view text);
 
-/// The same, cut in its middle to about `most` bytes, so that what stands behind it is still read.
+/// The same, cut in its middle to about `most` bytes, so that people still read the text behind it.
 std::string printable(std::string_view text, std::size_t most);
 
 /// Whether the bytes are well-formed UTF-8 (RFC 3629: no surrogates, no overlong forms).

@@ -40,7 +40,7 @@ struct Pipe {
   FileDescriptor reads, writes;
 };
 
-/// A program under way; it is ended where nobody waits for it.
+/// A running program; its destructor ends it.
 class Program {
  public:
   /// @param separate_output  whether standard output has a pipe of its own
@@ -85,11 +85,11 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Hands out what the program says, as it comes, until both pipes are closed.
+  /// Passes on the output, as it comes, until both pipes are closed.
   void read(const std::function<void(std::string_view)>& on_talk,
             const std::function<void(std::string_view)>& on_output) {
     while (talk_.valid() || output_.valid()) {
-      // A negative descriptor is passed over.
+      // poll skips a negative descriptor.
       std::array<pollfd, 2> waiting{pollfd{talk_.get(), POLLIN, 0}, pollfd{output_.get(), POLLIN, 0}};
       if (::poll(waiting.data(), waiting.size(), -1) < 0) continue;  // interrupted
       if (waiting[0].revents != 0) read_some(talk_, on_talk);
@@ -121,7 +121,7 @@ class Program {
   FileDescriptor talk_, output_;
 };
 
-/// Of what a program says only so much is kept: a reader wants its end and its beginning at most.
+/// Output beyond this is dropped: nobody reads so much.
 constexpr std::size_t MOST_TALK = std::size_t{16} << 20;
 
 std::function<void(std::string_view)> append_to(std::string& text) {

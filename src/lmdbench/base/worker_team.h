@@ -11,8 +11,8 @@
 
 namespace lmdbench {
 
-/// Threads that stand ready for many short jobs, where starting them anew, or a pool that the whole process shares, would cost
-/// more than the job.
+/// Threads ready for many short jobs that cost less than starting threads anew or using a pool that
+/// the whole process shares.
 class WorkerTeam {
  public:
   /// @param members  of the team, the calling thread included
@@ -23,7 +23,7 @@ class WorkerTeam {
 
   std::size_t size() const { return threads_.size() + 1; }
 
-  /// Calls job(member) once in each member's thread, member 0 in the caller's; returns when all are done.
+  /// Calls job(member) once in each member's thread, 0 in the caller's; returns when all are done.
   /// @param job  must not throw
   void run(const std::function<void(std::size_t member)>& job);
 

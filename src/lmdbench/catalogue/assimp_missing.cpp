@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of assimp_reader.cpp in a build without assimp (LMDBENCH_WITH_ASSIMP): OBJ alone.
+// Replaces assimp_reader.cpp in a build without assimp (LMDBENCH_WITH_ASSIMP): OBJ alone.
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/catalogue/assimp_reader.h>
 #include <lmdbench/catalogue/obj_file.h>

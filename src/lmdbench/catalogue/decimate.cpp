@@ -15,12 +15,12 @@ namespace lmdbench {
 
 namespace {
 
-// meshoptimizer stops between targets only where it finds nothing more to collapse; farther off than this the
-// name "16k" would be a lie.
+// meshoptimizer stops before the target only where it can collapse nothing more; beyond this
+// tolerance the name "16k" would be wrong.
 constexpr double TARGET_TOLERANCE = 0.01;
 
-// Relative error at which meshoptimizer would stop before the target; its quadric error of a closed mesh
-// stays far below the mesh's extent, so 1 means: the target decides.
+// Relative error at which meshoptimizer stops before the target. Its quadric error of a closed mesh
+// stays far below the mesh's extent, so with 1 the target decides.
 constexpr float NO_ERROR_LIMIT = 1.0f;
 
 std::string broken_property(const ValidityReport& before, const ValidityReport& after) {
@@ -38,7 +38,7 @@ Decimation decimate(const TriangleMesh& mesh, std::int32_t target_triangles, con
   const auto target = static_cast<std::size_t>(std::max(target_triangles, 0));
   if (target >= mesh.triangles.size()) return {mesh, 0.0};
 
-  // About the centre and at unit size, so that single precision is spent on the shape.
+  // Centred and at unit size, to spend single precision on the shape.
   const Vec3 centre = bounding_box_centre(mesh);
   const double diagonal = bounding_box_diagonal(mesh);
   std::vector<float> positions;

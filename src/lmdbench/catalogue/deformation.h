@@ -11,14 +11,14 @@
 
 namespace lmdbench {
 
-/// How a mesh is deformed. What moves is the *region*: the vertices that lie farthest along `direction`, `share` of all; how much
-/// each moves grows smoothly from nothing at the region's inner end (the *hinge*) to all at its tip. With a share of 1 all move.
+/// Kinds of deformation. They move the *region*: the vertices farthest along `direction`, `share`
+/// of all. Motion grows smoothly from none at its inner end (the *hinge*) to all at its tip.
 enum class DeformationKind : std::uint8_t {
-  BEND,  ///< Turns about an axis through the hinge square to the direction, by up to `amplitude` radians: an ear.
+  BEND,     ///< Turns about an axis square to the direction at the hinge, up to `amplitude` rad.
   TWIST,    ///< Turns about the direction, by up to `amplitude` radians.
   DENT,     ///< Moves against the direction, by up to `amplitude` diagonals.
-  BREATHE,  ///< Grows and shrinks about the region's middle, by up to `amplitude` of its size; whole meshes keep their shape.
-  CRUMPLE  ///< Moves every vertex to and fro along waves of random directions and lengths, by up to `amplitude` diagonals.
+  BREATHE,  ///< Scales about the region's middle, up to `amplitude`; a whole mesh uniformly.
+  CRUMPLE   ///< Moves along waves of random directions, lengths, up to `amplitude` diagonals.
 };
 
 /// "bend", "twist", "dent", "breathe", "crumple".
@@ -34,17 +34,17 @@ struct DeformationChoice {
   std::uint64_t seed = 0;          ///< Of CRUMPLE's waves.
 };
 
-/// A deformation of one mesh: vertices as a function of a phase, with the shape at rest at every whole and half period. The same
-/// arguments give the same bits on every processor.
+/// A deformation of one mesh: vertices as a function of a phase, at rest at every whole and half
+/// period. The same arguments give the same bits on every processor.
 class Deformation {
  public:
-  /// @throws std::invalid_argument for a share outside (0, 1], an amplitude that is no number or a direction without length
+  /// @throws std::invalid_argument: share outside (0, 1], infinite or NaN amplitude, zero direction
   Deformation(const TriangleMesh& mesh, const DeformationChoice& choice);
 
-  /// The vertices at a phase: the deformation is `amplitude` times sin(2 pi phase). Vertices outside the region are those at rest, bit
-  /// for bit.
+  /// The vertices at a phase, deformed by `amplitude` times sin(2 pi phase). Vertices outside the
+  /// region are those at rest, bit for bit.
   void at(double phase, std::vector<Vec3>& vertices) const { at_strength(wave(phase), vertices); }
-  /// The same at a strength in [-1, 1], of the amplitude.
+  /// The same at a strength in [-1, 1], in parts of the amplitude.
   void at_strength(double strength, std::vector<Vec3>& vertices) const;
 
  private:
@@ -59,7 +59,7 @@ class Deformation {
   std::vector<MovingVertex> moving_;
   std::vector<Vec3> crumple_;  ///< Displacements of moving_ at full strength [m].
   double diagonal_ = 0.0;
-  Vec3 along_ = Vec3::UnitZ(), across_ = Vec3::UnitX();  ///< Unit; the direction, and the axis of a bend.
+  Vec3 along_ = Vec3::UnitZ(), across_ = Vec3::UnitX();  ///< Unit; direction, axis of a bend.
   Vec3 hinge_ = Vec3::Zero(), middle_ = Vec3::Zero();    ///< Of the region.
 };
 

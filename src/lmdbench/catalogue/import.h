@@ -9,35 +9,33 @@
 
 namespace lmdbench {
 
-/// Reads a mesh file: PLY, OBJ, STL and glTF 2 through assimp in a child process (`read_with_assimp`), OFF by
-/// `parse_off`.
-///
-/// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are turned
-///   right side out.
-/// - Vertices with bit-identical positions are welded (0 and -0 count as one), because formats such as STL
-///   give every triangle its own corners, and adjacency, normals and polar cones need to know who meets whom.
-///   Never by a distance: an epsilon would close real gaps, collapse small triangles and depend on the
-///   model's scale, and what it joins would depend on the order of visits.
-/// - Triangles keep the file's order and their corners' order; those without area stay (`check_mesh` counts
-///   them). Polygons become triangles in place. Points and lines are no surface and are left out.
-/// - Vertices keep the file's order too, but those that no triangle uses are left out: they are not on the
+/// Reads a mesh file: PLY, OBJ, STL and glTF 2 through assimp in a child process
+/// (`read_with_assimp`), OFF by `parse_off`.
+/// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are
+///   turned right side out.
+/// - Vertices with bit-identical positions are welded (0 and -0 count as one): formats such as STL
+///   give every triangle its own corners, but adjacency, normals and polar cones need the
+///   neighbours. Never by a distance: an epsilon would close real gaps, collapse small triangles
+///   and depend on the model's scale, and the result would depend on the order of visits.
+/// - Triangles and their corners keep the file's order; those without area stay (`check_mesh`
+///   counts them). Polygons become triangles in place. Points and lines are no surface and are
+///   skipped.
+/// - Vertices keep the file's order too. Those without triangles are dropped: they are not on the
 ///   surface and must not count for its size.
-/// - Coordinates are taken as they are; no unit is guessed. All formats but OFF are read in single
+/// - Coordinates stay as they are; no unit is guessed. All formats but OFF are read in single
 ///   precision (assimp).
-///
-/// @throws InputError when the file cannot be read, holds no triangle, a coordinate that is not finite or
-///         an index out of range; it names the vertex or triangle, counted from 0
+/// @throws InputError when the file cannot be read, holds no triangle, a coordinate that is not
+///   finite or an index out of range; it names the vertex or triangle, counted from 0
 TriangleMesh import_mesh(const std::filesystem::path& file);
 
-/// The same from bytes that were read before; their file's extension says the format.
+/// The same from a file's bytes; its extension names the format.
 TriangleMesh import_mesh(const FileContent& content);
 
 /// A mesh file's bytes and their hash.
 /// @throws InputError when it cannot be read or is too large
 FileContent read_mesh_file(const std::filesystem::path& file);
 
-/// Welds vertices with bit-identical positions and drops those without triangles; the
-/// order of the first ones stays.
+/// Welds vertices with bit-identical positions and drops those without triangles; keeps the order.
 TriangleMesh welded(const TriangleMesh& mesh);
 
 }  // namespace lmdbench

@@ -15,14 +15,14 @@
 
 namespace lmdbench {
 
-/// Hands out the lines of a mesh in text without comments (# to the end) and blank lines, and numbers from them.
+/// Lines of a mesh in text, without comments (# to the end) and blank lines, and their numbers.
 class LineReader {
  public:
-  /// @param lines_before how many lines of the file stand before the text
+  /// @param lines_before lines of the file before the text
   LineReader(std::string file, std::string_view text, std::size_t lines_before = 0)
       : file_(std::move(file)), rest_(text), line_number_(lines_before) {}
 
-  /// Goes to the next line that holds something.
+  /// Goes to the next line with content.
   bool next_line() {
     while (!rest_.empty()) {
       const std::size_t end = rest_.find('\n');

@@ -28,7 +28,7 @@ namespace {
 constexpr const char* MANIFEST_FILE = "manifest.json";
 constexpr const char* MANIFEST_REMEDY = "correct the manifest; its keys are explained in meshes/README.md";
 
-/// Whether a relative path has only plain parts.
+/// Whether a relative path stays in its folder.
 bool stays_inside(std::string_view path) {
   for (;;) {
     const std::size_t end = path.find('/');

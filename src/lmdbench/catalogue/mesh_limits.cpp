@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-/// Triangles of every vertex, one after the other; a triangle that names a vertex twice stands there twice.
+/// Triangles of every vertex, in a row; one that names a vertex twice is there twice.
 struct VertexTriangles {
   std::vector<std::size_t> begin;  ///< Of vertex v in `triangles`; one entry more than vertices.
   std::vector<std::int32_t> triangles;
@@ -48,7 +48,7 @@ void check_mesh_limits(const TriangleMesh& mesh, const std::string& file) {
         fmt::format("has {} triangles, above the limit of {}", triangle_count, limit_of(Limit::TRIANGLES)),
         "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
   const VertexTriangles at(mesh);
-  // For each vertex, how often each other vertex is met in its triangles: the triangles of their edge.
+  // For each vertex, how often its triangles have each other vertex: the triangles of their edge.
   struct Meeting {
     std::int32_t with = -1;
     std::int64_t count = 0;

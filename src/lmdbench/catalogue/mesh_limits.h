@@ -8,11 +8,11 @@
 
 namespace lmdbench {
 
-/// Refuses meshes whose neighbourhoods are no surface's: k triangles round one edge are k^2 pairs of neighbours.
-/// Linear in the mesh.
+/// Refuses meshes with neighbourhoods of no surface: k triangles round one edge are k^2 pairs of
+/// neighbours. Linear in the mesh.
 /// @param file  its name, for messages
-/// @throws InputError for more triangles than `Limit::TRIANGLES`, at an edge than `Limit::EDGE_TRIANGLES`, at a
-///         vertex than `Limit::VERTEX_TRIANGLES`; it names the vertices and one of the triangles
+/// @throws InputError above `Limit::TRIANGLES`, at an edge above `Limit::EDGE_TRIANGLES`, at a
+///   vertex above `Limit::VERTEX_TRIANGLES`; it names the vertices and one of the triangles
 void check_mesh_limits(const TriangleMesh& mesh, const std::string& file);
 
 }  // namespace lmdbench

@@ -11,7 +11,7 @@
 namespace lmdbench {
 namespace {
 
-/// Keywords whose lines are no part of the surface.
+/// Keywords of skipped lines.
 constexpr std::array<std::string_view, 11> LEFT_OUT{"vn", "vt", "vp",     "g",      "o", "s",
                                                     "l",  "p",  "mtllib", "usemtl", "mg"};
 
@@ -26,7 +26,7 @@ Vec3 read_position(LineReader& lines) {
   return position;
 }
 
-/// The position that "7", "7/1", "7//3" or "-1" (the last one so far) names.
+/// The position that "7", "7/1", "7//3" or "-1" (the last one so far) refers to.
 const Vec3& read_corner(const LineReader& lines, std::string_view word, const std::vector<Vec3>& positions) {
   const auto count = static_cast<std::int64_t>(positions.size());
   const auto named = lines.number<std::int64_t>("a vertex index", word.substr(0, word.find('/')));
@@ -37,7 +37,7 @@ const Vec3& read_corner(const LineReader& lines, std::string_view word, const st
   return positions[static_cast<std::size_t>(index)];
 }
 
-/// Whether every triangle of the fan round the first corner turns the way that the whole polygon does.
+/// Whether every triangle of the fan round the first corner turns the same way as the polygon.
 bool is_convex(const std::vector<Vec3>& corners) {
   Vec3 area = Vec3::Zero();
   for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -76,7 +76,7 @@ TriangleMesh parse_obj(std::string_view text, const std::string& file) {
     while (!lines.at_line_end()) corners.push_back(read_corner(lines, lines.word(), positions));
     if (corners.size() < 3) lines.fail(fmt::format("a face of {} corners", corners.size()));
     if (corners.size() > 3 && !is_convex(corners)) lines.fail("a polygon that is not convex", CONVERT);
-    // Every face has corners of its own, as assimp gives them: importing welds them in the order of use.
+    // Every face has its own corners, as in assimp: import welds them in the order of use.
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
     for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(corners.size()); ++k)

@@ -9,10 +9,10 @@
 
 namespace lmdbench {
 
-/// Reads the surface of an OBJ text: the lines "v" and "f", for builds without assimp. Coordinates are rounded to single
-/// precision, as assimp reads them, so that both builds answer alike. Polygons become fans round their first corner; one
-/// that is not convex, which a fan would fold over, is refused, as are free-form surfaces and lines that are continued.
-/// Points, lines, groups, materials, normals and texture coordinates are no part of the surface.
+/// Reads an OBJ text's surface (lines "v" and "f"), for builds without assimp. Rounds coordinates
+/// to single precision like assimp: both builds agree. Polygons become fans round their first
+/// corner. Refuses polygons that are not convex (a fan would fold), free-form surfaces, continued
+/// lines. Skips all else: points, lines, groups, materials, normals, texture coordinates.
 /// @param file its name, for messages
 /// @throws InputError naming the line
 TriangleMesh parse_obj(std::string_view text, const std::string& file);

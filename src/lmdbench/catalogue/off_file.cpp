@@ -21,7 +21,7 @@ namespace lmdbench {
 
 namespace {
 
-// Positions come first in a vertex's line whatever follows: texture coordinates (ST), colours (C), normals (N).
+// Positions come first in every form; texture coordinates (ST), colours (C), normals (N) follow.
 constexpr std::array<std::string_view, 8> KEYWORDS{"OFF",   "COFF",   "NOFF",   "CNOFF",
                                                    "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
 
@@ -74,7 +74,7 @@ TriangleMesh parse_off(std::string_view text, const std::string& file) {
   if (std::find(KEYWORDS.begin(), KEYWORDS.end(), keyword) == KEYWORDS.end())
     lines.fail(fmt::format("'{}' is no keyword of an OFF file in three dimensions", keyword.substr(0, 40)),
                "begin the file with OFF (COFF, NOFF, STOFF and their mixtures are read, too)");
-  // The counts stand on the keyword's line or the next.
+  // The counts are on the keyword's line or the next.
   if (lines.at_line_end() && !lines.next_line())
     lines.fail("the file ends after its keyword", "get the file again: it may be cut short");
   if (lines.begins_with("BINARY"))

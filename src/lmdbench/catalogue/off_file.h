@@ -10,11 +10,11 @@
 
 namespace lmdbench {
 
-/// Reads an OFF text file line by line, in double precision. Own code although assimp reads OFF too, because
-/// assimp reads it in single precision, takes a negative index for 0, clamps indices that are out of range
-/// and aborts the program on a file that was cut short (5.2.5). Polygons with more than three corners become
-/// fans round their first corner. Further columns (normals, colours, texture coordinates) are ignored.
-/// @throws InputError naming the line; also for binary OFF and for what is above a limit
+/// Reads an OFF text file line by line, in double precision. Own code, because assimp (5.2.5) reads
+/// OFF in single precision, takes a negative index for 0, clamps indices that are out of range and
+/// aborts the program on a truncated file. Polygons with more than three corners become fans round
+/// their first corner. Further columns (normals, colours, texture coordinates) are ignored.
+/// @throws InputError naming the line; also for binary OFF and above a limit
 TriangleMesh read_off(const std::filesystem::path& file);
 
 /// The same from text; `file` is its name in messages.

@@ -18,7 +18,7 @@
 namespace lmdbench {
 namespace {
 
-/// Between the words of a PLY file, whose text may go over lines.
+/// Separators of words in a PLY file; line ends are as good as blanks.
 constexpr std::string_view PLY_BLANKS = " \t\r\n\v\f";
 
 struct ScalarType {
@@ -167,7 +167,7 @@ class HeaderReader {
   std::vector<Element> elements_;
 };
 
-/// Walks over the content behind the header.
+/// Walks over the content after the header.
 class BodyWalk {
  public:
   BodyWalk(std::string_view body, Form form, const std::string& file)
@@ -251,7 +251,7 @@ std::string with_its_first_byte(std::string_view ply, const PlyContent& content)
 
 namespace {
 
-/// Bytes of a line, for each corner that a polygon may have: three indices of ten digits, and signs between.
+/// Bytes of a line per corner of a polygon: three indices of ten digits, and signs between.
 constexpr std::int64_t BYTES_PER_CORNER = 40;
 
 std::int64_t word_count(std::string_view line) {
@@ -265,7 +265,7 @@ std::int64_t word_count(std::string_view line) {
   return count;
 }
 
-/// What "v" and "f" lines say of vertices.
+/// Checks vertices in "v" and "f" lines.
 class ObjVertices {
  public:
   void check(LineReader line, std::size_t number) {
@@ -274,7 +274,7 @@ class ObjVertices {
     if (keyword == "v") {
       std::size_t numbers = 0;
       for (; numbers < 3 || !line.at_line_end(); ++numbers) line.number<double>("a coordinate");
-      // A weight may follow, or a colour; other lines assimp leaves out.
+      // A weight or a colour may follow; assimp drops other lines.
       if (numbers != 3 && numbers != 4 && numbers != 6)
         line.fail(fmt::format("a vertex of {} numbers", numbers));
       ++count_;
@@ -289,7 +289,7 @@ class ObjVertices {
     }
   }
 
-  /// After the last line: a face may name vertices that come later.
+  /// Call after the last line: a face may name vertices that come later.
   void check_largest(const std::string& file) const {
     if (largest_ > count_)
       throw InputError(file, fmt::format("line {}", line_of_largest_),
@@ -308,7 +308,7 @@ class ObjVertices {
 
 void check_obj(std::string_view text, const std::string& file) {
   const std::int64_t most_corners = limit_of(Limit::POLYGON_CORNERS);
-  std::int64_t corners = 0;  // of the face under way: a backslash at a line's end continues it
+  std::int64_t corners = 0;  // of the current face: a backslash at a line's end continues it
   std::int64_t length = 0;   // of the lines so joined
   bool in_face = false;
   std::string joined;  // Lines that are continued, without their backslashes.
@@ -350,7 +350,7 @@ std::string without_materials(std::string_view text) {
     const std::string_view line = std::string_view(result).substr(begin, end - begin);
     if (word < end) {
       const std::string_view rest = line.substr(word - begin);
-      // A comment that ends in a backslash must not swallow the next line.
+      // A comment with a backslash at its end must not swallow the next line.
       if (rest.starts_with("mtllib") || rest.starts_with("usemtl"))
         std::fill(result.begin() + static_cast<std::ptrdiff_t>(word),
                   result.begin() + static_cast<std::ptrdiff_t>(end), '#');

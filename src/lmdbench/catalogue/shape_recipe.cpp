@@ -23,7 +23,7 @@ namespace lmdbench {
 
 namespace {
 
-// Reads a recipe's keys, each within its range, and knows which of them nobody asked for.
+// Reads a recipe's keys, each within its range, and remembers the unused ones.
 class Recipe {
  public:
   Recipe(const nlohmann::json& json, const std::string& file, const std::string& pointer)
@@ -76,7 +76,7 @@ class Recipe {
       fail(key, "is not a rotation", "write a unit quaternion [x, y, z, w]");
     return result;
   }
-  /// A recipe of an outline, where it is named.
+  /// Outline from a recipe at the key.
   Outline outline(const char* key, int around);
   bool has(const char* key) const { return json_.contains(key); }
   /// A recipe within this one.
@@ -140,7 +140,7 @@ Outline Recipe::outline(const char* key, int around) {
 
 using Maker = std::function<TriangleMesh(Recipe&)>;
 
-// Upper limits keep a slip of the pen from filling the memory: about five million triangles.
+// Upper limits keep a typing error from filling the memory: about five million triangles.
 const std::map<std::string, Maker>& makers() {
   static const std::map<std::string, Maker> table{
       {"sphere", [](Recipe& r) { return make_sphere(r.length("radius"), r.integer("subdivisions", 0, 9)); }},
@@ -220,10 +220,10 @@ TriangleMesh make_shape(const nlohmann::json& recipe, const std::string& file, c
                      fmt::format("choose one of {}", fmt::join(kinds, ", ")));
   }
   Recipe reader(recipe, file, pointer);
-  // Order of evaluation of a call's arguments is open, so a bad recipe may be told by any of its bad keys.
+  // C++ may evaluate a call's arguments in any order, so the error may name any of the bad keys.
   TriangleMesh mesh = maker->second(reader);
   reader.finish();
-  // Copies of copies double at every step; lengths may be anything that is positive.
+  // Copies of copies double at every step; lengths may be any positive numbers.
   check_mesh_limits(mesh, file);
   refuse_extreme_size(mesh, file);
   return mesh;

@@ -10,9 +10,9 @@
 
 namespace lmdbench {
 
-/// Makes a generated shape (shapes.h) out of {"kind": "torus", "ring_radius": 0.4, ...}; the keys are the
-/// parameters' names there, lengths in metres. Every key is required and no other is allowed.
-/// @param file, pointer  where the recipe stands, for messages
+/// Makes a generated shape (shapes.h) from {"kind": "torus", "ring_radius": 0.4, ...}; keys are the
+/// parameters' names there, lengths in metres. Every key is required, no other is allowed.
+/// @param file, pointer  of the recipe, for messages
 /// @throws InputError naming the key
 TriangleMesh make_shape(const nlohmann::json& recipe, const std::string& file, const std::string& pointer);
 

@@ -16,8 +16,8 @@ namespace {
 // Ridges round the spindle of needles.
 constexpr std::int32_t NEEDLE_RIDGES = 5;
 
-// Surface of the box spanned by three ascending rows of coordinates, with a vertex on
-// every surface lattice point.
+// Surface of the box spanned by three ascending rows of coordinates, a vertex at every lattice
+// point.
 TriangleMesh lattice_box(const std::array<std::vector<double>, 3>& coordinates) {
   TriangleMesh mesh;
   std::map<std::array<std::size_t, 3>, std::int32_t> numbers;
@@ -62,8 +62,7 @@ double bumps(const Vec3& p) {
   return 1.4 * a + 0.5 * b + 0.6 * c;
 }
 
-// Prism of a convex or star-shaped (seen from its first corner) profile in xz, counter-clockwise seen from
-// -y.
+// Prism of a profile in xz, convex or star-shaped from its first corner, counter-clockwise from -y.
 TriangleMesh extrude(const std::vector<std::array<double, 2>>& profile, double length) {
   TriangleMesh mesh;
   const auto n = static_cast<std::int32_t>(profile.size());
@@ -266,7 +265,7 @@ TriangleMesh turned_to_floats(TriangleMesh mesh, const Eigen::Quaterniond& rotat
   for (Vec3& vertex : mesh.vertices) {
     const Vec3 turned = turn * vertex;
     for (int axis = 0; axis < 3; ++axis) {
-      // Through memory: GCC 12 was seen to drop the two conversions of neighbouring coordinates at -O3.
+      // Through memory: GCC 12 can drop the two conversions of neighbouring coordinates at -O3.
       volatile float rounded = static_cast<float>(turned[axis]);
       vertex[axis] = static_cast<double>(rounded);
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 constexpr double PRESSURE_ANGLE = PI / 9.0;
-/// Part of the gap between two teeth at the base circle by which a flank leans outwards down to the root.
+/// Outward lean of a flank at the root, in parts of the gap between two teeth at the base circle.
 constexpr double FLANK_LEAN = 0.05;
 
 Vec2 direction(int i, int n) {
@@ -31,14 +31,14 @@ struct Rows {
   std::int32_t at(int row, int i) const { return first + row * around + i % around; }
 };
 
-/// Two triangles between neighbours of two rows; the second row lies to the left of the first, seen from outside.
+/// Two triangles between neighbours of two rows; seen from outside the second row is to the left.
 void add_square(TriangleMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t next_b,
                 std::int32_t next_a) {
   mesh.triangles.push_back({a, b, next_b});
   mesh.triangles.push_back({a, next_b, next_a});
 }
 
-/// Involute function: the angle between the start of an involute and its point at the pressure angle.
+/// Involute function: angle between an involute's start and its point at the pressure angle.
 double involute(double angle) {
   return std::tan(angle) - angle;
 }
@@ -120,7 +120,7 @@ Outline thread_outline(double radius, double depth, double pitch) {
 }
 
 TriangleMesh make_sleeve(const Outline& outline, const Outline& bore, const SleeveChoice& choice) {
-  // Names of their own: clang before 16 captures no structured bindings.
+  // Own names: clang before 16 captures no structured bindings.
   const double height = choice.height;
   const int around = choice.around, layers = choice.layers, rings = choice.rings;
   assert(around >= 3 && layers >= 1 && rings >= 1);
@@ -168,7 +168,7 @@ TriangleMesh make_sleeve(const Outline& outline, const Outline& bore, const Slee
       for (int i = 0; i < around; ++i) {
         const std::int32_t a = vertex(ring, i), b = vertex(ring, i + 1), c = vertex(ring + 1, i + 1),
                            d = vertex(ring + 1, i);
-        // The upper end is seen from above, the lower one from below.
+        // The upper end faces up, the lower one down.
         if (c == d) {
           mesh.triangles.push_back(layer > 0 ? std::array{a, b, c} : std::array{b, a, c});
         } else if (layer > 0) {

@@ -21,7 +21,7 @@
 namespace lmdbench {
 namespace {
 
-/// The first frame at or after a time; without one the middle of the frames in contact, or of all.
+/// The first frame at or after a time; unset: the middle of the frames in contact, or of all.
 std::size_t frame_at(const PreparedRun& prepared, std::optional<double> time) {
   const std::vector<double>& times = prepared.times;
   if (time) {
@@ -68,7 +68,7 @@ void add_anatomy_command(CLI::App& app) {
     Scene scene = bodies.scene();
     Pose pose = prepared.input.poses[frame];
     if (scene.several_move() || scene.is_world()) {
-      // One pair: the nearest, in the frame of its second mesh.
+      // The nearest pair, in the frame of its second mesh.
       const ObjectPair pair = NearestObjects(bodies.scene()).at(pose).objects;
       pose = relative_pose(scene.pose(pair.other, pose), scene.pose(pair.mover, pose));
       scene = pair.scene_of(bodies.scene());

@@ -48,7 +48,7 @@ std::shared_ptr<CLI::App> make_app(const std::vector<std::string>& argv, int& ex
   auto app = std::make_shared<CLI::App>(
       "Bench for multi-contact haptic rendering with local minimum distances", "lmdbench");
   app->require_subcommand(1);
-  app->fallthrough();  // -v and -q work behind the subcommand, too
+  app->fallthrough();  // -v and -q also work after the subcommand
   app->set_version_flag("--version", version_text());
   const auto common = std::make_shared<CommonOptions>();
   app->add_flag("-v,--verbose", common->verbose, "tell more; run prints all numbers, not a table alone");
@@ -97,7 +97,7 @@ UsageError usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::string help = "see " + call + " --help";
   const std::vector<std::string> extras = app.remaining(true);
   const bool lacks_command = command->get_require_subcommand_min() > 0;
-  // Behind a command that does not exist nothing is known; behind one that does, what follows an unknown option is its value.
+  // After an unknown command nothing is known; after a known one, an unknown option has a value.
   const auto culprit = lacks_command ? extras.begin() : std::ranges::find_if(extras, is_option);
   if (culprit != extras.end() && is_option(*culprit)) {
     const std::string name = culprit->substr(0, culprit->find('='));

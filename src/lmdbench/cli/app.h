@@ -15,15 +15,15 @@ class ParseError;
 
 namespace lmdbench {
 
-/// The whole command line of `lmdbench`: what the program parses, and what its man pages and completions are made from.
+/// The whole command line of `lmdbench`: it parses, and man pages and completions are made from it.
 /// Commands run while it parses.
 /// @param argv        of the program, for provenance
-/// @param exit_status receives the exit code of a command that judges; outlives the result
+/// @param exit_status receives the exit code of a command with a verdict; outlives the result
 std::shared_ptr<CLI::App> make_app(const std::vector<std::string>& argv, int& exit_status);
 
-/// What is wrong with a command line that did not parse: a command, option or argument that does not exist first (with the
-/// nearest that does), because what CLI11 misses is often what was misspelt.
-/// @param app that was asked to parse it
+/// The fault of a command line that did not parse: first a command, option or argument that does
+/// not exist (with the nearest that does), since a missing one is often misspelt.
+/// @param app the one that parsed it
 UsageError usage_error(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace lmdbench

@@ -12,7 +12,7 @@ class App;
 
 namespace lmdbench {
 
-/// Calls that show what a command is for, as they are typed in the source tree.
+/// Calls that show the use of a command, as typed in the source tree.
 struct CommandExamples {
   std::string_view command;  ///< "run", "mesh build"; empty: the program itself.
   std::array<std::string_view, 2> calls;

@@ -14,18 +14,18 @@ class Option;
 
 namespace lmdbench {
 
-/// The experiment file of a command and what `--set` changes of it.
+/// A command's experiment file and its changes by `--set`.
 struct ExperimentArgument {
   std::string file;
   std::vector<Override> overrides;
 
-  /// Loads it with the methods of plugins beside its own, and tells what the overrides replaced beside their own values.
+  /// Loads it with the plugins' methods, and reports values that overrides replaced indirectly.
   /// @throws UsageError as `load_experiment`
   Experiment load() const;
 };
 
 /// Adds the positional argument, which it returns, and `--set`.
-/// @param argument outlives the command
+/// @param argument must outlive the command
 CLI::Option* add_experiment_argument(CLI::App& command, ExperimentArgument& argument,
                                      const std::string& description = "experiment file (JSON)");
 

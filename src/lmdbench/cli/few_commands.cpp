@@ -16,7 +16,7 @@ void add_commands(CLI::App& app, const std::vector<std::string>& /*argv*/, int& 
   for (const std::string name : {"run", "plan", "init", "stability", "record", "compare", "doctor", "report",
                                  "export", "anatomy", "work-precision"}) {
     CLI::App* command = app.add_subcommand(name, "not in this build: needs HDF5");
-    command->prefix_command()->fallthrough(false);  // whatever its arguments are
+    command->prefix_command()->fallthrough(false);  // takes any arguments
     command->callback([name] { throw missing_part(PART_HDF5, "", "", "the command " + name); });
   }
 }

@@ -32,7 +32,7 @@ int run_program(int argc, char** argv) {
     if (error.get_exit_code() != 0) throw usage_error(*app, error);
     return app->exit(error);  // prints help or the version
   }
-  // Results that did not arrive must not look like success; a command that flushes by itself leaves the mark.
+  // Lost output must not look like success; a command that flushes leaves the error flag.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw EnvironmentError("", "standard output", "cannot be written",
                            "check the disk or the reader of the pipe");
@@ -44,7 +44,7 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   using lmdbench::ExitCode;
   lmdbench::set_up_talk(0);
-  // A file that may not grow any more (ulimit -f) is an error of the write, not the end.
+  // At the file size limit (ulimit -f) the write fails, but the program continues.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run_program(argc, argv);
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     return exit_with(ExitCode::ENVIRONMENT,
                      "out of memory (remedy: a smaller scene, fewer frames or more memory)");
   } catch (const std::system_error& error) {
-    // What only the operating system can refuse: threads, pipes, writes to standard output.
+    // Refusals of the system alone: threads, pipes, writes to standard output.
     return exit_with(
         ExitCode::ENVIRONMENT,
         std::string("the system refuses: ") + error.what() +

@@ -32,8 +32,8 @@
 namespace lmdbench {
 namespace {
 
-/// Decimals of a generated path's numbers: nanometres and nanoradians keep the file small. What is checked is
-/// the rounded path.
+/// Decimals of a generated path: nanometres and nanoradians keep the file small. The rounded path
+/// is the one checked.
 constexpr int STORED_DECIMALS = 9;
 
 constexpr double DEGREES = 180.0 / std::numbers::pi;
@@ -62,7 +62,7 @@ PathScene load_scene(const PathSpec& spec, const PathArguments& arguments) {
   return mesh_scene(place(spec.moving, arguments), place(spec.fixed, arguments));
 }
 
-/// Shows the progress, and ends what takes longer than its limit: gaps far beyond the meshes' sizes, where all
+/// Shows progress and enforces the time limit: gaps far beyond the meshes' sizes, where all
 /// triangles are equally near, may take seconds a frame.
 ProgressFunction progress_on(ProgressBar& bar, const std::string& phase, const std::string& spec) {
   return [&bar, phase, spec](std::size_t done, std::size_t all) {
@@ -77,7 +77,7 @@ ProgressFunction progress_on(ProgressBar& bar, const std::string& phase, const s
   };
 }
 
-/// Frames count as being at the wanted gap up to this multiple of it.
+/// A frame is at the wanted gap up to this multiple of it.
 constexpr double AT_WANTED_GAP = 1.1;
 
 struct GapNote {
@@ -152,14 +152,14 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
              100.0 * (AT_WANTED_GAP - 1.0));
 }
 
-/// Paths that `tum_text` wrote here say so in their first line; a recorded one has no such line.
+/// Generated paths have a mark in their first line; recorded ones have none.
 bool is_generated_path(const std::filesystem::path& file) {
   const std::string head = first_bytes(file);
   return head.starts_with("# ") &&
          head.substr(0, head.find('\n')).find(GENERATED_PATH_MARK) != std::string::npos;
 }
 
-/// File of a mesh that a specification names, whether it is there or not.
+/// File of a specification's mesh, which may be missing.
 std::filesystem::path mesh_file(const PlacedMesh& placed, const PathArguments& arguments) {
   if (is_mesh_name(placed.mesh)) return built_mesh_file(arguments.mesh_folder, placed.mesh);
   return std::filesystem::path(arguments.spec).parent_path() / placed.mesh;
@@ -181,7 +181,7 @@ void generate(const PathArguments& arguments) {
       fmt::format("{} past {}, {} {}'", name_of(spec.moving), name_of(spec.fixed), GENERATED_PATH_MARK,
                   std::filesystem::path(arguments.spec).filename().string());
   const std::string text = tum_text(path, comment, STORED_DECIMALS);
-  // What counts is what readers will see: the rounded poses, interpolated.
+  // Readers will have the rounded poses, interpolated.
   std::istringstream stream(text);
   const PathInterpolator interpolator(read_tum(stream, arguments.path));
   const GapNote gaps = note_gaps(interpolator, spec, scene, arguments.spec);

@@ -8,18 +8,18 @@
 
 namespace lmdbench {
 
-/// How far a long command is, on standard error: on a terminal a bar that moves, elsewhere (a log, a pipe) a line now and then.
+/// Progress of a long command on standard error: a bar on a terminal, else a line now and then.
 class ProgressBar {
  public:
-  /// @param enabled false switches it off whatever standard error is
-  /// @param silence least time between the lines that no terminal gets, and before the first of them
+  /// @param enabled false switches it off in any case
+  /// @param silence least time between lines without a terminal, and before the first of them
   explicit ProgressBar(bool enabled, std::chrono::milliseconds silence = std::chrono::seconds(10));
   ~ProgressBar();  ///< Wipes the bar.
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// Draws at most ten times a second. A new phase starts a new clock, but not a new line.
-  /// @param total negative where nobody knows it: the phase says all there is to say
+  /// @param total negative if unknown: only the phase is shown
   void update(const std::string& phase, std::int64_t done, std::int64_t total);
   void wipe();
 
@@ -36,7 +36,7 @@ class ProgressBar {
   Clock::time_point last_line_ = begin_;
 };
 
-/// "run [#####-----]  50 % 1200/s ETA 0:42": the bar's text, for `elapsed` seconds in this phase; of a negative total the phase alone.
+/// The bar for `elapsed` seconds: "run [#####-----]  50 % 1200/s ETA 0:42"; total < 0: the phase.
 std::string progress_line(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed);
 
 /// "run: 50 %, 42 s left": the same for a log.

@@ -44,7 +44,7 @@ struct QueryOptions {
   bool json = false;
 };
 
-/// In metres, taken as it is but for rounded planes and triangles that are to be turned.
+/// In metres; only rounded planes and wrongly turned triangles are changed.
 std::shared_ptr<const Body> load(const std::string& name, const QueryOptions& options, double metres) {
   PlanarTolerance tolerance = parse_planar_tolerance(options.planar_tolerance, "", "--planar-tolerance");
   if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= metres;
@@ -68,7 +68,7 @@ Path poses_of(const QueryOptions& options) {
   return read_tum(options.poses);
 }
 
-/// The method's options with what `--option` says.
+/// The method's options with the values of `--option`.
 nlohmann::json chosen_options(const QueryOptions& options) {
   nlohmann::json chosen = nlohmann::json::object();
   for (const std::string& option : options.options) {
@@ -85,7 +85,7 @@ void run_query(const QueryOptions& options) {
         "", "--cutoff",
         fmt::format("{} is not a distance above 0 and at most {:g}", options.cutoff, LARGEST_COORDINATE),
         "give metres, for example --cutoff 0.005");
-  // First, because a misspelt name or option should not wait for the meshes.
+  // First: a misspelt name or option should not wait for the meshes.
   const nlohmann::json method_options = chosen_options(options);
   if (options.critical && !method_description(options.method).finds_critical_pairs)
     throw UsageError("", "--critical", fmt::format("the method \"{}\" finds LMDs alone", options.method),

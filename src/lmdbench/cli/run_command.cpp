@@ -57,7 +57,7 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
     if (result.resumed_frames > 0)
       spdlog::info("the times of {} frames are those of the interrupted run", result.resumed_frames);
     const RunSummary summary = summarise(experiment, result);
-    // The table tells them itself; beside JSON they are for people.
+    // The table has them already; JSON has them for programs alone.
     if (options.json)
       for (const std::string& warning : summary.warnings) spdlog::warn("{}", warning);
     for (const Track& track : result.tracks) {

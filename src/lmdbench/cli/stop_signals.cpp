@@ -8,7 +8,7 @@
 namespace lmdbench {
 namespace {
 
-/// The signal that came; 0 for none.
+/// The received signal; 0 for none.
 volatile std::sig_atomic_t received_signal = 0;
 
 void remember(int signal) {

@@ -15,7 +15,7 @@
 namespace lmdbench {
 namespace {
 
-/// The message with its control characters made visible: names and values come from files.
+/// Makes control characters of a message visible: names and values come from files.
 class PrintableMessage final : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,

@@ -21,7 +21,7 @@ namespace {
 
 using Files = std::vector<ResultReader>;
 
-/// A sweep has points in place of methods with frames, which `lmdbench report` and scripts/figures/sweep.py read.
+/// A sweep has points, not methods with frames: for `lmdbench report`, scripts/figures/sweep.py.
 void refuse_sweep(const ResultReader& file) {
   if (file.has("/sweep"))
     throw UsageError(
@@ -29,7 +29,7 @@ void refuse_sweep(const ResultReader& file) {
         "give results of lmdbench run; lmdbench report and scripts/figures/sweep.py read sweeps");
 }
 
-/// Runs on the clock differ from one to the next in every frame, whatever the programs.
+/// Real-time runs differ in every frame, whatever the programs.
 void refuse_realtime(const ResultReader& file) {
   if (file.has("/realtime"))
     throw UsageError(file.file().string(), "/realtime", "a run on the clock, no two of which are the same",
@@ -66,7 +66,7 @@ void check_replicates(const Files& files) {
   }
 }
 
-/// Where two experiments ask of the same frames under other settings. Results of other frames have nothing to compare.
+/// Different settings for the same frames. Results of other frames cannot be compared.
 std::vector<Difference> setting_differences(const ResultReader& base, const ResultReader& candidate) {
   std::vector<Difference> differences = experiment_differences(base, candidate);
   const std::vector<std::string> methods = base.groups("/methods");
@@ -117,7 +117,7 @@ MachineComparison compare_machines(const Files& base, const Files& candidate) {
   return machine;
 }
 
-/// Samples to compare: (method, stage) in the order of reports, and one value a process for either side.
+/// Times to compare: (method, stage) in the order of reports, one value a process on each side.
 struct Sample {
   std::string method;
   std::string stage;
@@ -152,7 +152,7 @@ std::vector<Sample> stage_samples(const Comparison& comparison) {
   return samples;
 }
 
-/// Total time of every method over that of the one before it, process by process.
+/// Total time of every method over that of the one before it, for each process.
 std::vector<Sample> ratio_samples(const Comparison& comparison, const std::vector<std::string>& methods) {
   const auto totals = [](const std::vector<StageTimes>& processes, const std::string& method) {
     std::vector<double> values;
@@ -178,7 +178,7 @@ std::vector<Sample> ratio_samples(const Comparison& comparison, const std::vecto
   return samples;
 }
 
-/// Labels that both sides time, in the order of reports that a result of theirs carries.
+/// Labels timed on both sides, in the order of a result's reports.
 std::vector<std::string> common_methods(const Comparison& comparison, const ResultReader& result) {
   std::vector<std::string> methods;
   for (const auto& [method, times] : comparison.base.front())
@@ -271,7 +271,7 @@ Comparison compare_results(const std::vector<std::filesystem::path>& base_names,
     comparison.notes.emplace_back(
         "the experiments differ in the settings named first: what else differs, times included, may come "
         "from them");
-    // So do the force constants, which are attributes of the group itself.
+    // So do force constants, which are attributes of the group itself.
     std::erase_if(of_scenes, [](const Difference& d) { return d.dataset.starts_with("/scene:"); });
   }
   const bool same_scene = of_scenes.empty();

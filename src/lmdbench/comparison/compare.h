@@ -12,14 +12,14 @@
 #include <utility>
 #include <vector>
 
-/// Comparing the results of two builds on one experiment, or of two settings of it: first what must be the same bits, then
-/// times.
+/// Compares the results of two builds on one experiment, or of two settings of it: first the exact
+/// part, then times.
 namespace lmdbench {
 
 struct CompareOptions {
   ExactOptions exact;
   double least_effect = 0.05;  ///< Relative change of a time that matters
-  double false_alarm = 0.01;   ///< Probability of a false "slower" over all stages of all methods together
+  double false_alarm = 0.01;   ///< Probability of any false "slower" over all stages and methods
 };
 
 /// Facts about the machines and builds behind the two sides.
@@ -36,29 +36,29 @@ struct Comparison {
   std::vector<Difference> differences;
   std::vector<Timing> timings;  ///< By method, then in the order of `stages()`
   MachineComparison machine;
-  std::vector<std::string> notes;  ///< What a reader must know, in plain words
-  std::size_t repetitions = 0;     ///< Measured repetitions that were used of every process
+  std::vector<std::string> notes;  ///< Plain sentences that a reader must know
+  std::size_t repetitions = 0;     ///< Measured repetitions used of every process
   std::vector<StageTimes> base;    ///< One a process
   std::vector<StageTimes> candidate;
 };
 
-/// Compares results; several files a side are replicates by process. Times are compared by stage and method where the
-/// machines are alike; else the times of the methods relative to each other within every file are compared, with a least
-/// effect of at least CROSS_MACHINE_EFFECT. Experiments that ask of the same frames under other settings (force, methods,
-/// searches) are `changed`, which settings said first. Where one experiment made different scenes, that is `changed`, and no
-/// times are compared.
-/// @throws InputError  when a file is no result, or when replicates of one side have other results than their first
-/// @throws UsageError  when a side has no file, one file twice or a sweep's file, when the two sides' experiments have
-///                     other frames or inputs (the message holds DIFFERENT_EXPERIMENTS), or for an unknown counter in `allowed_counters`
+/// Compares results; several files a side are replicates by process. Times are compared by stage
+/// and method if the machines are alike; else the times of methods relative to each other within
+/// every file, with a least effect of at least CROSS_MACHINE_EFFECT. Experiments with the same
+/// frames but other settings (force, methods, searches) are `changed`, settings first. Where one
+/// experiment made different scenes, that is `changed`, and no times are compared.
+/// @throws InputError  when a file is no result, or replicates of one side have different results
+/// @throws UsageError when a side has no file, one file twice or a sweep's file, if the sides'
+///   frames or inputs differ (DIFFERENT_EXPERIMENTS), or for an unknown allowed counter
 Comparison compare_results(const std::vector<std::filesystem::path>& base,
                            const std::vector<std::filesystem::path>& candidate,
                            const CompareOptions& options);
 
-/// How a refusal of different experiments begins: the regression gate, which gives both programs one file, tells it by this.
+/// Start of a refusal of different experiments; the regression gate recognises it by this.
 inline constexpr const char* DIFFERENT_EXPERIMENTS = "is of another experiment than";
 
-/// Relative speeds of methods move by this much with caches and vector units alone: our estimate, to keep a change of
-/// machine from looking like a change of the program.
+/// Caches and vector units alone change methods' relative speeds by this much. Our estimate, to
+/// keep a change of machine from looking like one of the program.
 inline constexpr double CROSS_MACHINE_EFFECT = 0.5;
 
 /// 0 for same and faster, 1 for slower and changed, 4 for unsure.

@@ -91,7 +91,7 @@ std::string comparison_json(const Comparison& comparison) {
                      {"build_notes", machine.build_notes},
                      {"base", facts_json(machine.base)},
                      {"candidate", facts_json(machine.candidate)}};
-  // Texts of a foreign file need not be UTF-8.
+  // Texts of a foreign file may not be UTF-8.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -12,17 +12,17 @@ namespace lmdbench {
 ///  "differences": [{"method", "dataset", "frame", "base", "candidate"}],
 ///  "timings": [{"method", "stage", "ratio", "low", "high", "verdict", "detectable"}],
 ///  "machine": {"comparable", "reasons", "build_notes", "base", "candidate"}}
-/// "method" is null for what belongs to none, "frame" where a whole dataset differs; NaN is null.
+/// "method" is null for data of no method, "frame" where a whole dataset differs; NaN is null.
 std::string comparison_json(const Comparison& comparison);
 
-/// One side's times in Google Benchmark's format, which compare.py of libbenchmark-tools, github-action-benchmark and
-/// Bencher read: a benchmark a method and stage, a repetition a process, real time [ns] of the whole path.
+/// One side's times in Google Benchmark's format (compare.py of libbenchmark-tools, Bencher,
+/// github-action-benchmark): a benchmark a method and stage, a repetition a process, real time [ns]
 /// @param machine facts of the side, for the context
 std::string google_benchmark_json(const std::vector<StageTimes>& processes,
                                   const std::vector<std::pair<std::string, std::string>>& machine);
 
-/// JUnit XML, a test case a method and stage and one for the exact part: slower and changed are failures, unsure is
-/// skipped, so that CI servers show them with their reasons.
+/// JUnit XML for CI servers: a test case a method and stage and one for the exact part. Slower and
+/// changed are failures, unsure is skipped, each with its reasons.
 std::string comparison_junit(const Comparison& comparison);
 
 /// For people, as plain text; the first line is the verdict.
@@ -31,7 +31,7 @@ std::string comparison_text(const Comparison& comparison);
 /// The same as Markdown, for a comment on a change.
 std::string comparison_markdown(const Comparison& comparison);
 
-/// One line each: "improved: force differs in frame 12 (and 3 more rows): [0,0,1.5] became [0,0,1.25]".
+/// "improved: force differs in frame 12 (and 3 more rows): [0,0,1.5] became [0,0,1.25]"
 std::string difference_text(const Difference& difference);
 /// "improved, search: 1.104 times the base's time (1.087 to 1.121), slower; the same work: ..."
 std::string timing_text(const Timing& timing);

@@ -35,7 +35,7 @@ std::optional<std::int64_t> frame_of_row(const ResultReader& file, const std::st
   const std::string own_group = path.substr(0, path.rfind('/'));
   const std::string name = path.substr(own_group.size() + 1);
   if (own_group.ends_with("/summary")) return std::nullopt;
-  if (name == "frame_offset") return static_cast<std::int64_t>(row) - 1;  // entry f + 1 closes frame f
+  if (name == "frame_offset") return static_cast<std::int64_t>(row) - 1;  // f + 1 closes f
   if (file.has(own_group + "/frame_offset")) {
     const std::vector<std::int64_t> offsets = file.integers(own_group + "/frame_offset");
     const auto after = std::upper_bound(offsets.begin(), offsets.end(), static_cast<std::int64_t>(row));
@@ -53,8 +53,8 @@ namespace {
 constexpr const char* ABSENT_HERE = "absent";
 constexpr const char* PRESENT_HERE = "present";
 
-/// Times differ from run to run: samples say so by their name, numbers of the summary by an attribute
-/// (results/README.md); files of earlier versions have no such attribute.
+/// Times differ between runs. Samples are marked by their name, numbers of the summary by an
+/// attribute (results/README.md), which files of earlier versions lack.
 bool is_time(const ResultReader& file, const std::string& group, const std::string& name) {
   if (name.ends_with("_time")) return true;
   const std::string path = group + "/" + name;
@@ -66,7 +66,7 @@ bool is_counter_group(const std::string& name) {
   return name == "counters" || name == "global_counters";
 }
 
-/// Paths inside a group, to any depth, of everything that is the same bits in every run.
+/// Paths in a group, to any depth, of everything that has the same bits in every run.
 void collect_deterministic(const ResultReader& file, const std::string& group, const std::string& prefix,
                            std::vector<std::string>& paths) {
   for (const std::string& name : file.datasets(group))
@@ -192,7 +192,7 @@ class DatasetPair {
     return difference;
   }
 
-  /// A counter that stayed 0 on the whole path: a method that no longer writes it lost nothing.
+  /// A counter that was 0 on the whole path: a method that no longer writes it lost nothing.
   bool counts_nothing() const {
     if (!is_counter_group(dataset_.substr(0, dataset_.find('/')))) return false;
     const std::vector<std::int64_t> values = base_.integers(path_);
@@ -205,8 +205,8 @@ class DatasetPair {
            !path_.ends_with("/frame_offset");
   }
 
-  /// Rows of ragged lists stand side by side only up to the first frame whose number of entries differs; that frame
-  /// itself is reported by `frame_offset`.
+  /// Rows of ragged lists correspond only up to the first frame whose number of entries differs;
+  /// `frame_offset` reports that frame.
   std::size_t comparable_rows(std::size_t rows) const {
     if (!ragged()) return rows;
     const std::string offsets = path_.substr(0, path_.rfind('/')) + "/frame_offset";
@@ -236,7 +236,7 @@ void compare_group(const ResultReader& base, const ResultReader& candidate, cons
   }
 }
 
-/// The hash also covers the features of LMDs that no list of the file holds. Under a tolerance it has no say.
+/// The hash also covers features of LMDs that no list of the file holds. Not used with a tolerance.
 void compare_hash(const ResultReader& base, const ResultReader& candidate, const std::string& method,
                   std::vector<Difference>& differences) {
   const std::string group = "/methods/" + method;

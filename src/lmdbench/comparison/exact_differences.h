@@ -16,19 +16,18 @@
 
 namespace lmdbench {
 
-/// A place where two results that should be the same are not: the first row of one dataset that differs.
+/// A place where two results that should be equal differ: the first such row of one dataset.
 struct Difference {
-  std::string method;  ///< Label; empty for what belongs to no method (experiment, inputs, truth)
-  std::string
-      dataset;  ///< Path inside the method's group, "force" or "counters/node_pairs"; else an absolute path
-  std::optional<std::int64_t> frame;  ///< Haptic frame; unset where the whole dataset or attribute differs
-  nlohmann::json base;  ///< Value there: number, text or row of numbers; null for NaN and for "absent"
+  std::string method;   ///< Label; empty for data of no method (experiment, inputs, truth)
+  std::string dataset;  ///< In the method's group ("force", "counters/node_pairs"), else absolute
+  std::optional<std::int64_t> frame;  ///< Haptic frame; unset for a whole dataset or attribute
+  nlohmann::json base;                ///< Value: number, text, row; null: NaN or absent
   nlohmann::json candidate;
-  std::size_t rows = 0;  ///< Rows of the dataset that differ, this one included; 0 where there are no rows
+  std::size_t rows = 0;  ///< Rows of the dataset that differ, with this one; 0: no rows
 };
 
-/// The order of reports: what belongs to no method, then by frame, so that the first entry is nearest to the cause;
-/// whole datasets last.
+/// The order of reports: data of no method, then by frame, so that the first entry is nearest to
+/// the cause; whole datasets last.
 inline bool reported_before(const Difference& a, const Difference& b) {
   const auto key = [](const Difference& d) {
     return std::tuple(!d.method.empty(), d.frame.value_or(std::numeric_limits<std::int64_t>::max()), d.method,
@@ -37,9 +36,9 @@ inline bool reported_before(const Difference& a, const Difference& b) {
   return key(a) < key(b);
 }
 
-/// The haptic frame that a row of a dataset belongs to, by the datasets that say so (results/README.md): `frame` or
-/// `frame_offset` of the dataset's own group, `global_frame` of the method for what has one row a search, and the row
-/// itself for what has one row a frame.
+/// The haptic frame of a row of a dataset, from other datasets (results/README.md): `frame` or
+/// `frame_offset` of its own group, `global_frame` of the method for one row a search, and the row
+/// itself for one row a frame.
 /// @param group   "/methods/improved", or "/reference"
 /// @param dataset path inside the group
 /// @return unset where the file does not tell
@@ -47,14 +46,14 @@ std::optional<std::int64_t> frame_of_row(const ResultReader& file, const std::st
                                          const std::string& dataset, std::size_t row);
 
 struct ExactOptions {
-  /// Real numbers may differ by this share of the largest magnitude in their row; 0: the same bits. NaN equals NaN.
+  /// Allowed difference over the largest magnitude in a row; 0: same bits. NaN equals NaN.
   double tolerance_relative = 0.0;
   std::vector<std::string> allowed_counters;  ///< Counters that may differ
 };
 
-/// Every deterministic dataset of every method, matched by label, so that another order of methods is no difference: LMD
-/// sets, forces, counters, errors against truth; times are left out. A method or dataset that only the candidate has is
-/// no difference, one that it has lost is, unless it is a counter that was 0 throughout.
+/// Compares every deterministic dataset of every method, matched by label in any order: LMD sets,
+/// forces, counters, errors against truth; no times. A method or dataset of the candidate alone is
+/// no difference; one that it lost is, unless it is a counter that was 0 throughout.
 /// @return at most one entry a dataset, in the order of `reported_before`
 std::vector<Difference> exact_differences(const ResultReader& base, const ResultReader& candidate,
                                           const ExactOptions& options);
@@ -63,7 +62,7 @@ std::vector<Difference> exact_differences(const ResultReader& base, const Result
 std::vector<Difference> group_differences(const ResultReader& base, const ResultReader& candidate,
                                           const std::string& group);
 
-/// What only the candidate has: "method certified", "improved/counters/new_counter".
+/// Parts of the candidate alone: "method certified", "improved/counters/new_counter".
 std::vector<std::string> additions(const ResultReader& base, const ResultReader& candidate);
 
 /// Names of the counters that a file holds, sorted.

@@ -31,8 +31,8 @@ nlohmann::json deciding_part(const ResultReader& file) {
     experiment["driver"].erase("repetitions");
     experiment["driver"].erase("block_frames");
   }
-  // A mesh without a deformation, as in files from before there were any, is another one than a mesh with one. Which files hold the
-  // vertices does not matter: their SHA-256 is compared.
+  // A mesh without a deformation, also in old files, differs from one with it. The files with the
+  // vertices do not matter: their SHA-256 is compared.
   const auto tell_rigid = [](nlohmann::json& mesh) {
     if (!mesh.is_object()) return;
     nlohmann::json& deformation = mesh["deformation"];
@@ -41,7 +41,7 @@ nlohmann::json deciding_part(const ResultReader& file) {
   };
   tell_rigid(experiment["moving"]);
   if (experiment["fixed"].is_array()) std::ranges::for_each(experiment["fixed"], tell_rigid);
-  // No movers, as in files from before there were any, is another scene than some.
+  // No movers, also in old files, is another scene than some.
   nlohmann::json& movers = experiment["movers"];
   if (movers.is_array())
     for (nlohmann::json& mover : movers)
@@ -60,7 +60,7 @@ nlohmann::json deciding_part(const ResultReader& file) {
   return experiment;
 }
 
-/// First values that differ among keys that both sides have; methods that only one side has are the methods' business.
+/// First different values among keys of both sides; methods of one side are compared elsewhere.
 void compare_json(const nlohmann::json& base, const nlohmann::json& candidate, const std::string& pointer,
                   std::vector<Difference>& differences) {
   if (base.is_object() && candidate.is_object()) {
@@ -105,8 +105,8 @@ nlohmann::json attribute(const ResultReader& file, const std::string& object, co
   return *file.text_attribute(object, name);
 }
 
-/// Attributes of /scene and of its meshes. A mesh's name does not matter, and its `validity` follows from what its
-/// SHA-256 covers.
+/// Attributes of /scene and of its meshes, except a mesh's name, which does not matter, and its
+/// `validity`, which its SHA-256 covers.
 void compare_scene(const ResultReader& base, const ResultReader& candidate, const std::string& group,
                    std::vector<Difference>& differences) {
   for (const std::string& name : base.attributes(group)) {
@@ -116,7 +116,7 @@ void compare_scene(const ResultReader& base, const ResultReader& candidate, cons
       differences.push_back({"", group + ":" + name, std::nullopt, std::move(a), std::move(b), 0});
   }
   for (const std::string& mesh : base.groups(group)) {
-    if (mesh == "objects") continue;  // names; what they are stands in the meshes' groups
+    if (mesh == "objects") continue;  // names; their meshes have groups
     if (candidate.has(group + "/" + mesh))
       compare_scene(base, candidate, group + "/" + mesh, differences);
     else
@@ -154,8 +154,8 @@ namespace {
 
 constexpr const char* MACHINE = "/provenance/machine";
 
-/// What decides how fast the same instructions run. Not the number of usable processors, memory or kernel: they move
-/// times by less than the noise.
+/// Facts that decide how fast the same instructions run. Usable processors, memory and kernel
+/// change times by less than the noise.
 constexpr const char* DECISIVE[] = {"processor",
                                     "processor_family_model_stepping",
                                     "logical_processors",

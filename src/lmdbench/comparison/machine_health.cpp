@@ -32,12 +32,12 @@ namespace {
 
 constexpr std::size_t REPETITIONS = 3;
 constexpr std::size_t PIECES = 50;
-/// As many as scripts/ci_regression.sh starts with, and its probability of a false alarm shared out among seven stages.
+/// First number of processes in scripts/ci_regression.sh, and its false alarms over seven stages.
 constexpr std::size_t PROCESSES = 6;
 constexpr double FALSE_ALARM = 0.05 / 7.0;
 
-/// Some 0.1 ms of dependent arithmetic over a table that fills half of a usual level 1 and part of a level 2 cache:
-/// feels a lower frequency as well as a neighbour in the cache.
+/// Some 0.1 ms of dependent arithmetic over a table larger than a usual level 1 cache: a lower
+/// frequency slows it, and so does a neighbour in the cache.
 class Piece {
  public:
   Piece() : table_(TABLE_SIZE) { std::iota(table_.begin(), table_.end(), 1.0); }
@@ -60,8 +60,8 @@ class Piece {
   std::vector<double> table_;
 };
 
-/// What `lmdbench compare` would call detectable if consecutive groups were processes of two sides in turns: the median over
-/// all such sets of 2 x PROCESSES groups. NaN where there are fewer.
+/// Detectable change of `lmdbench compare` if consecutive groups were processes of two sides in
+/// turns: the median over all such sets of 2 x PROCESSES groups. NaN with fewer.
 double median_detectable(const std::vector<double>& groups) {
   std::vector<double> found;
   for (std::size_t first = 0; first + 2 * PROCESSES <= groups.size(); first += 2 * PROCESSES) {
@@ -127,7 +127,7 @@ NoiseFloor measure_noise_floor(double seconds) {
 namespace {
 
 constexpr const char* UNKNOWN = "unknown";
-/// More waiting programs than this share of the processors, and a timed one has to share its core now and then.
+/// With more waiting programs a processor, a timed one sometimes shares its core.
 constexpr double LARGEST_LOAD_PER_PROCESSOR = 0.5;
 /// One percent of stolen time already doubles some frames.
 constexpr double LARGEST_STOLEN_SHARE = 0.001;
@@ -139,7 +139,7 @@ std::string first_line(const std::string& file) {
   return line;
 }
 
-/// Whether this process may count its own instructions.
+/// "yes", or why this process may not count its own instructions.
 std::string hardware_counters() {
   struct perf_event_attr attributes {};
   attributes.type = PERF_TYPE_HARDWARE;

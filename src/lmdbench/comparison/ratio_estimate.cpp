@@ -35,8 +35,8 @@ std::size_t rank_bound(std::size_t base, std::size_t candidate, double error) {
   const std::size_t pooled = base + candidate, chosen = std::min(base, candidate);
   // An error below a half is reached in the lower half of the sums.
   const std::size_t sums = base * candidate / 2 + 1;
-  // ways[k][u]: choices of k of the places so far with u values of the other sample before them, counted once for each.
-  // Doubles: the numbers outgrow integers, and only their share of all is used.
+  // ways[k][u]: choices of k of the places so far with u values of the other sample before them. As
+  // doubles: the numbers outgrow integers, and only their share of all is used.
   std::vector<std::vector<double>> ways(chosen + 1, std::vector<double>(sums, 0.0));
   ways[0][0] = 1.0;
   double all = 1.0;  // pooled over chosen
@@ -63,8 +63,8 @@ std::vector<double> logarithms(std::span<const double> values) {
   return result;
 }
 
-/// Both ends of the interval. So few processes that ranks give none say nothing: a neighbour on the machine slows a process
-/// as a whole, and no factor bounds that.
+/// Both ends of the interval. Too few processes for ranks say nothing: a neighbour on the machine
+/// slows a whole process, by any factor.
 std::pair<double, double> ends_of(const Pairings& pairings, std::size_t bound) {
   if (bound == 0) return {0.0, std::numeric_limits<double>::infinity()};
   return {std::exp(pairings.low(bound)), std::exp(pairings.high(bound))};
@@ -74,7 +74,7 @@ std::pair<double, double> ends_of(const Pairings& pairings, std::size_t bound) {
 
 RatioEstimate estimate_ratio(std::span<const double> base, std::span<const double> candidate, double error) {
   const Pairings pairings(logarithms(base), logarithms(candidate));
-  // A single process may have been held up as a whole, and no number on the other side can show that.
+  // A neighbour may have slowed a single process, and no number on the other side can show that.
   const bool replicated = std::min(base.size(), candidate.size()) > 1;
   const std::size_t bound = replicated ? rank_bound(base.size(), candidate.size(), INTERVAL_ERROR) : 0;
   const std::size_t alarm_bound = replicated ? rank_bound(base.size(), candidate.size(), error) : 0;
@@ -93,7 +93,7 @@ std::size_t processes_needed(const RatioEstimate& estimate, std::size_t processe
   while (rank_bound(least, least, error) == 0) ++least;
   if (!estimate.can_alarm()) return least;  // the noise is not known yet
   const double shift = std::abs(std::log(estimate.ratio));
-  // "same" needs the interval to end before the least effect, "slower" and "faster" the alarm's to end before 1.
+  // "same": the interval ends before the least effect; "slower", "faster": the alarm's before 1.
   const double room = std::log1p(least_effect) - shift;
   const double width = std::max(estimate.ratio / estimate.low, estimate.high / estimate.ratio);
   double times = std::numeric_limits<double>::infinity();

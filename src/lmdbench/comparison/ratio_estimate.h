@@ -9,10 +9,10 @@
 
 namespace lmdbench {
 
-/// All differences candidate - base, sorted: the pairings of Mann and Whitney's two-sample rank test (1947). Their median
-/// is the shift of Hodges and Lehmann (1963), and the test's acceptance region cuts an exact interval out of them (Moses
-/// 1965). Nothing is assumed of the distribution but that it is the same on both sides up to the shift, so a process that
-/// a neighbour held up moves the interval by one place only, however long it was held up.
+/// All differences candidate - base, sorted: the pairings of Mann and Whitney's two-sample rank
+/// test (1947). Their median is the shift of Hodges and Lehmann (1963); the test's acceptance
+/// region cuts an exact interval out of them (Moses 1965). Any distribution will do, the same on
+/// both sides up to the shift: a process held up, however long, moves the interval by one place.
 class Pairings {
  public:
   /// Both samples have at least one value, all finite.
@@ -20,8 +20,8 @@ class Pairings {
 
   double shift() const;  ///< Their median
 
-  /// The true shift lies below it with a probability of at most the error whose `rank_bound` is given: the `bound`-th
-  /// smallest pairing. Ties widen nothing and break nothing: the probability only falls.
+  /// The `bound`-th smallest pairing: the true shift is below it with a probability of at most the
+  /// error of that `rank_bound`. Ties only lower the probability.
   double low(std::size_t bound) const;
   /// Likewise above it: the `bound`-th largest.
   double high(std::size_t bound) const;
@@ -30,42 +30,41 @@ class Pairings {
   std::vector<double> sorted_;
 };
 
-/// Largest k such that, of `base` x `candidate` pairings of samples from one source, fewer than k are negative with a
-/// probability of at most `error`; exact, by counting the orders of the pooled values. 0 where so few processes cannot
-/// reach the error: then even pairings that all agree are too likely.
+/// Largest k such that fewer than k of `base` x `candidate` pairings of samples from one source are
+/// negative with a probability of at most `error`; exact, by counting the orders of the pooled
+/// values. 0 where so few processes cannot reach the error, even if all pairings agree.
 /// @param error in (0, 0.5)
 std::size_t rank_bound(std::size_t base, std::size_t candidate, double error);
 
-/// By how much a candidate's times differ from a base's, from one time a process.
+/// Ratio of a candidate's times to a base's, from one time a process.
 struct RatioEstimate {
   /// Median over all pairings of candidate / base (Hodges and Lehmann's shift of the logarithms).
   double ratio = 1.0;
-  /// The true ratio lies below `low` with a probability of at most INTERVAL_ERROR, above `high` likewise; 0 and infinity
-  /// where the processes are too few for a rank test to reach that error (two a side) or single on a side.
+  /// The true ratio is below `low` with a probability of at most INTERVAL_ERROR, above `high`
+  /// likewise; 0 and infinity with too few processes for that error (two a side, or a single one).
   double low = 0.0;
   double high = 0.0;
-  /// The same for the error that a false alarm may have: a low above 1 is a slowdown, a high below 1 the contrary.
+  /// The same at the false alarm's error: a low above 1 is a slowdown, a high below 1 a speed-up.
   double alarm_low = 0.0;
   double alarm_high = 0.0;
-  /// Smallest relative change that these samples could tell from none, e.g. 0.03; infinity where too few can tell any.
+  /// Least relative change that these samples could show, e.g. 0.03; infinity if they are too few.
   double detectable = 0.0;
 
   bool has_interval() const { return high < std::numeric_limits<double>::infinity(); }
   bool can_alarm() const { return alarm_high < std::numeric_limits<double>::infinity(); }
 };
 
-/// Either end of the reported interval. Also the probability that a slowdown of the least effect is taken for "same": that
-/// needs no share for every stage, since all stages must be within the least effect and the slow one alone would have to
-/// fail.
+/// Error at either end of the reported interval, and so the probability that a slowdown of the
+/// least effect counts as "same". It is not shared among stages: all must be within the least
+/// effect, and the slow one alone would have to fail.
 inline constexpr double INTERVAL_ERROR = 0.05;
-/// Intervals of the exact rank test (`ratio_estimate.h`), so their errors are known without any assumption about the noise
-/// but that it is alike on both sides.
+/// Intervals of the exact rank test, with known errors for any noise that is alike on both sides.
 /// @param base  one time a process [s], at least one, all positive; likewise candidate
 /// @param error probability of a false alarm on either side, in (0, 0.5)
 RatioEstimate estimate_ratio(std::span<const double> base, std::span<const double> candidate, double error);
 
-/// Processes a side that would end in a verdict with this noise, were `estimate.ratio` the truth: intervals shrink with the
-/// root of the number of processes. More than `processes`, and enough for the rank test to reach `error`. At most 10000.
+/// Processes a side for a verdict with this noise, if `estimate.ratio` were true: intervals shrink
+/// with their root. More than `processes`, enough for a rank test to reach `error`; at most 10000.
 /// @param processes of the smaller side
 std::size_t processes_needed(const RatioEstimate& estimate, std::size_t processes, double least_effect,
                              double error);

@@ -14,31 +14,31 @@ namespace lmdbench {
 
 /// A part of a method's work that result files time on its own.
 struct TimedStage {
-  std::string_view name;           ///< In reports: "search", "reduction", "second tracking", "local update"
+  std::string_view name;           ///< In reports: "search", "second tracking", ...
   std::string_view dataset;        ///< Inside the method's group, (repetition, frame or search) [s]
   std::string_view counter_group;  ///< Inside the method's group: the counters that count its work
 };
 
-/// All of them; a method without local tracking has only the last one, which is then its whole search.
+/// All of them; a method without local tracking has only the last one, its whole search.
 const std::vector<TimedStage>& stages();
 
-/// Time that one process spent in one stage [s]: of every frame the least over the measured repetitions, summed over the
-/// frames. A neighbour on the machine can only add time, and to a given frame it seldom does so in all repetitions:
-/// between 60 processes on a machine with other work the plain sums differed by 20 to 50 % (standard deviation), the
-/// sums of minima by 0.3 to 2.5 %. Yet nothing is left out: a slowdown of a few frames shows.
+/// Time of one process in one stage [s]: the least of every frame over the measured repetitions,
+/// summed over frames. A neighbour on the machine only adds time, seldom to one frame in all
+/// repetitions: between 60 processes on a busy machine, plain sums differed by 20 to 50 % (standard
+/// deviation), sums of minima by 0.3 to 2.5 %. No frame is left out: a slowdown of a few shows.
 /// By method label and stage name; stages that a method does not have are missing.
 using StageTimes = std::map<std::string, std::map<std::string, double>>;
 
 /// Measured repetitions of a file, without those that warm up.
 std::size_t measured_repetitions(const ResultReader& file);
 
-/// @param repetitions use only the first so many measured repetitions: a minimum over more is smaller, so files can be
-///                    compared only over as many as the shortest has
+/// @param repetitions use only the first so many: a minimum over more is smaller, so files are
+///   compared over as many as the shortest has
 StageTimes stage_times(const ResultReader& file, std::size_t repetitions);
 
-/// Tells whether a stage does other work or the same work at another speed, by the sums of its counters: "more work:
-/// node_pairs +12.5 %, leaf_pairs +3 %", or "the same work: none of its 14 counters moved". The stages of the global
-/// thread share their counters.
+/// Tells whether a stage does other work, or the same at another speed, by its counters' sums:
+/// "more work: node_pairs +12.5 %, leaf_pairs +3 %", or "the same work: none of its 14 counters
+/// moved". The stages of the global thread share their counters.
 /// @param stage name of a stage of `stages()`
 std::string work_of_stage(const ResultReader& base, const ResultReader& candidate, const std::string& method,
                           const std::string& stage);

@@ -11,7 +11,7 @@
 
 namespace lmdbench {
 
-/// What a comparison says, of one stage or as a whole.
+/// Result of a comparison, of one stage or as a whole.
 enum class Verdict {
   SAME,     ///< Any change is smaller than the least effect.
   FASTER,   ///< Surely faster.
@@ -37,11 +37,10 @@ struct Timing {
 
 /// The rule, in this order:
 ///   same    the interval is within the least effect of 1;
-///   slower  the interval of an alarm lies above 1; the first line leaves only those that reach beyond the least effect;
+///   slower  an alarm's interval is above 1 (so it reaches beyond the least effect);
 ///   faster  it lies below 1, likewise;
 ///   unsure  everything else.
-/// So few processes that a rank test cannot reach the error have no interval and are `unsure`: with one or two a side always,
-/// however far the times lie apart or together.
+/// With too few processes for a rank test the result is `unsure`: with one or two a side always.
 /// @param least_effect relative change that matters, e.g. 0.05
 /// @param error        probability of a false "slower" that is allowed for this stage
 Timing judge_timing(std::span<const double> base, std::span<const double> candidate, double least_effect,

@@ -18,13 +18,13 @@ namespace lmdbench {
 
 namespace {
 
-/// Cosine of the angle up to which the end of a descent has a minimum's direction where their features differ: on a flat contact, say.
+/// Least cosine of the directions of a descent's end and of its minimum on other features.
 constexpr double SAME_DESCENT_DIRECTION = 0.995;
-/// Distances differ by less than this part of the coordinates where the end of a descent is a minimum: the turn of the generic pose and
-/// what meshes are known to.
+/// Distances of a descent's end and its minimum differ by less than this part of the coordinates:
+/// covers the turn of the generic pose and the accuracy of meshes.
 constexpr double SAME_DESCENT_DISTANCE = 16.0 * LEAST_TOLERANCE;
 
-/// Larger places are given up.
+/// Larger level places are given up.
 constexpr std::size_t MOST_PAIRS_OF_A_PLACE = 4096;
 
 double largest_coordinate_of(const Surface& surface) {
@@ -66,8 +66,8 @@ std::size_t MergeFinder::end_of_descent(const RigidTransform& X_WM, const Critic
     ++triangle_distances_;
     return triangle_distance(X_WM.triangle(moving.mesh.triangle(a)), fixed.mesh.triangle(b));
   };
-  // A place that is level but for the turn of the generic pose, or one next to its birth or death, may hold a descent that has a way down
-  // elsewhere: from pair to pair at the same distance until one is nearer.
+  // A place that is level but for the generic pose's turn, or next to a birth or death, may stop a
+  // descent that goes on elsewhere: go over pairs at the same distance until one is nearer.
   const auto leave_level_place = [&](std::pair<std::int32_t, std::int32_t> from, double distance,
                                      double same) {
     std::vector<std::pair<std::int32_t, std::int32_t>> place{from};
@@ -94,8 +94,8 @@ std::size_t MergeFinder::end_of_descent(const RigidTransform& X_WM, const Critic
       end = known->second;
       break;
     }
-    // On a pair of triangles the distance is convex: a minimum on it is its least. By names, since next to a birth a minimum is nearer to its
-    // saddle than the kernel tells a face from its edge.
+    // The distance is convex on a pair of triangles: a minimum on it is its least. By names: next
+    // to a birth, minimum and saddle are nearer than the kernel tells a face from its edge.
     for (std::size_t i = 0; i < critical.size() && end == NO_MINIMUM; ++i)
       if (critical[i].is_basin && critical[i].pair.fixed_body == body &&
           holds(moving.incident_triangles(critical[i].pair.feature_moving), a) &&
@@ -135,7 +135,7 @@ std::size_t MergeFinder::end_of_descent(const RigidTransform& X_WM, const Critic
       nearest = apart;
       end = i;
     }
-    // Where meshes meet everything is level.
+    // Where meshes intersect everything is level.
     if (end == NO_MINIMUM && distance > same) end = leave_level_place(way.back(), distance, same);
     break;
   }
@@ -158,8 +158,8 @@ void MergeFinder::find(const Pose& pose, const CriticalSet& critical, std::vecto
     for (std::size_t i = 0; i < critical.size(); ++i) {
       const Lmd& saddle = critical[i].pair;
       if (critical[i].index > -1 || critical[i].is_minimum || saddle.fixed_body != body) continue;
-      // A pair of triangles holds the saddle, and the distance is convex on it: it leads down where one of them reaches farther along the
-      // saddle's direction. By directions and not by distances, which next to a birth differ by the square of what is between.
+      // The distance is convex on a pair of the saddle's triangles: it falls where one reaches
+      // farther along its direction. Not by distances, which next to a birth differ by a square.
       const Vec3 d = saddle.distance * saddle.direction;
       ends.clear();
       for (const std::int32_t s : moving.incident_triangles(saddle.feature_moving))

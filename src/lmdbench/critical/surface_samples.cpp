@@ -97,7 +97,7 @@ struct SurfaceSampler::Search {
     sample.distance = found.distance;
     if (!(sample.distance > 0.0)) return;
     sample.direction = (found.place.point - ball.centre) / sample.distance;
-    // Seen along the direction: nothing jumps where a side turns away, and what faces away, with the solid between, has none.
+    // Seen along the direction: no jump where a side turns away; sides beyond the solid have none.
     const double seen = sample.direction.dot(normal);
     if (!(seen > 0.0)) return;
     sample.area = seen * 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();

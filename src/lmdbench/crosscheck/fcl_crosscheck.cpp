@@ -17,14 +17,14 @@ namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-/// A seed must stay an upper bound: FCL takes only pairs strictly below it, and the pair that gave it is
-/// computed again in another frame of reference, with other roundings. Relative to the distance.
+/// A seed must stay an upper bound: FCL takes only pairs strictly below it, and computes the seed's
+/// pair again in another frame, with other roundings. Relative to the distance.
 constexpr double SEED_MARGIN = 1e-9;
 
 double unit_of_finest(const Surface& moving, const std::vector<const Surface*>& fixed) {
   double finest = mean_edge_length(moving.mesh);
   for (const Surface* surface : fixed) finest = std::min(finest, mean_edge_length(surface->mesh));
-  // Meshes of coincident points have no size to go by.
+  // Meshes of coincident points have no size.
   return finest > 0.0 ? 1.0 / finest : 1.0;
 }
 
@@ -94,7 +94,7 @@ class FclCrosscheck::Implementation {
       fcl::DistanceResultd found = seeded;
       if (last_[i].fixed >= 0) found.min_distance *= 1.0 + SEED_MARGIN;
       query(i, X, found);
-      // Nothing below the seed: the last pair is still the nearest one.
+      // Nothing is below the seed: the last pair is still the nearest one.
       if (found.b1 < 0 || found.min_distance > seeded.min_distance) found = seeded;
       last_[i] = {static_cast<std::int32_t>(found.b1), static_cast<std::int32_t>(found.b2)};
       keep_nearer(best, i, found);
@@ -110,7 +110,7 @@ class FclCrosscheck::Implementation {
     return X;
   }
 
-  /// The fixed mesh goes first: FCL's points then come back in the world frame without a further rounding.
+  /// The fixed mesh goes first: FCL's points are then in the world frame without further rounding.
   void query(std::size_t i, const fcl::Transform3d& X, fcl::DistanceResultd& result) const {
     const fcl::DistanceRequestd request(/*nearest points*/ true, /*signed distance*/ false, /*rel_err*/ 0.0,
                                         /*abs_err*/ 0.0);

@@ -13,8 +13,8 @@
 
 namespace lmdbench {
 
-/// What FCL answers for one pose. Invariant: the points are set only while `separated`, because FCL's witness
-/// points of meshes in contact do not coincide and mean nothing.
+/// FCL's answer for one pose. Invariant: the points are set only while `separated`, because FCL's
+/// witness points of meshes in contact do not coincide and mean nothing.
 struct FclResult {
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< metres; 0 in contact
   bool separated = false;
@@ -27,26 +27,26 @@ struct FclResult {
       Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< p_W, metres; NaN in contact.
 };
 
-/// Unit of length in which FCL sees the meshes.
+/// Unit of length of the meshes for FCL.
 enum class FclScaling : std::uint8_t {
-  /// One common factor for all meshes and poses brings the mean edge length of the *finest* mesh (the one
-  /// with the least mean edge length) to 1, so no mesh's mean is below 1.
+  /// One common factor for all meshes and poses: it makes the mean edge of the *finest* mesh (with
+  /// the least mean edge length) 1, so no mesh's mean is below 1.
   UNIT_MEAN_EDGE,
-  /// The meshes as they are: only for showing what happens without scaling.
+  /// The meshes as they are: only to show the effect of no scaling.
   NONE
 };
 
-/// Minimum distance of meshes by FCL (OBBRSS hierarchies): an independent opinion on the methods' minimum
-/// distance and a peer in benchmarks.
+/// Minimum distance of meshes by FCL (OBBRSS hierarchies): an independent check of the methods'
+/// minimum distance, and a peer in benchmarks.
 ///
-/// FCL's triangle kernel skips the face test when the squared length of an edge cross product is under an
-/// absolute 1e-15: about a ten-thousandth of a unit in edge length. With meshes of centimetres given in
-/// metres it then overlooks faces, and reports contact where there is none. Hence the scaling. The kernel is
-/// also wrong on a few triangle pairs with nearly parallel edges; a disagreement with it is a question to be
-/// arbitrated, not a verdict.
+/// FCL's triangle kernel skips the face test when the squared length of an edge cross product is
+/// under an absolute 1e-15: about a ten-thousandth of a unit in edge length. For meshes of
+/// centimetres in metres it then overlooks faces, and reports contact where there is none: hence
+/// the scaling. The kernel is also wrong on a few triangle pairs with nearly parallel edges. A
+/// disagreement with it is a question for an arbiter, not a verdict.
 class FclCrosscheck {
  public:
-  /// Whether this build has FCL (LMDBENCH_WITH_FCL); without it there is nothing but this question.
+  /// Whether this build has FCL (LMDBENCH_WITH_FCL); without it nothing else works.
   static bool is_built_in();
 
   /// Builds the hierarchies; keeps no reference to the surfaces.
@@ -58,13 +58,12 @@ class FclCrosscheck {
   FclCrosscheck(FclCrosscheck&& other) noexcept;
   FclCrosscheck& operator=(FclCrosscheck&& other) noexcept;
 
-  /// Nearest pair, searched from scratch: how FCL itself starts every query. May be
-  /// called from several threads.
+  /// Nearest pair, searched from scratch as FCL starts every query. Several threads may call it.
   FclResult distance(const Pose& X_WM) const;
 
-  /// The same, started from the bound that the last warm query's triangle pairs give at the new pose. FCL has
-  /// no such mode of its own; seeding its result is allowed by its interface and is the fair peer for frame
-  /// sequences. The first call is cold.
+  /// The same, with the bound of the last warm query's triangle pairs at the new pose. FCL has no
+  /// such mode, but its interface allows seeding its result: a fair peer for frame sequences. The
+  /// first call is cold.
   FclResult distance_warm(const Pose& X_WM);
 
   /// Forgets the last pairs: the next warm query is cold.
@@ -78,23 +77,24 @@ class FclCrosscheck {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// What FCL's triangle kernel answers, unchanged.
+/// Answer of FCL's triangle kernel, unchanged.
 struct FclTriangleDistance {
-  double distance =
-      std::numeric_limits<double>::quiet_NaN();  ///< In the triangles' unit; 0 where FCL sees contact.
-  Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< Arbitrary when distance is 0.
-  Vec3 point_b = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< Arbitrary when distance is 0.
+  /// In the triangles' unit; 0 where FCL has contact.
+  double distance = std::numeric_limits<double>::quiet_NaN();
+  /// Points are arbitrary when distance is 0.
+  Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vec3 point_b = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
-/// Distance of two triangles by FCL's kernel (fcl::detail::TriangleDistance), called as it is: a peer to
-/// compare with, not a reference.
-/// @warning Known to be wrong on triangles whose squared doubled area is under 1e-15 and on nearly parallel
-/// edges; see fcl_crosscheck.h for the remedy of the first.
+/// Distance of two triangles by FCL's kernel (fcl::detail::TriangleDistance), called unchanged: a
+/// peer for comparison, not a reference.
+/// @warning Wrong on triangles whose squared doubled area is under 1e-15 (remedy: the scaling
+/// above) and on nearly parallel edges.
 FclTriangleDistance fcl_triangle_distance(const Triangle& a, const Triangle& b);
 
-/// What the kernel answers about one pair of triangles within a query of FclCrosscheck, to the
-/// last bit: FCL then hands it the triangles in their own frames, with the relative pose, and
-/// its errors hang on such roundings.
+/// The kernel's answer about one pair of triangles within a query of FclCrosscheck, to the last
+/// bit: FCL passes it the triangles in their own frames with the relative pose, and its errors
+/// depend on such roundings.
 /// @param moving_M  a triangle of the moving mesh, in that mesh's frame, metres
 /// @param fixed_W   a triangle of a fixed mesh, metres
 /// @param scale     FclCrosscheck::scale(); 1 for FclScaling::NONE

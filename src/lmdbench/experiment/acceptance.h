@@ -13,7 +13,7 @@ namespace lmdbench {
 
 struct Experiment;
 
-/// "limits" of an experiment file: what a run must keep to.
+/// "limits" of an experiment file: bounds that a run must keep.
 struct Acceptance {
   bool asked = false;                             ///< The file has limits.
   std::vector<std::string> methods;               ///< Labels; empty: all.

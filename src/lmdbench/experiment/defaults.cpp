@@ -25,7 +25,7 @@ constexpr const char* USUAL_DEVICE = "phantom-desktop";
 /// For a device without a limit [N].
 constexpr double USUAL_FORCE = 1.0;
 
-/// A file's name as the name of an experiment: letters, digits, '_', '-' and '.'.
+/// A file's name as a valid name of an experiment.
 std::string name_from(const std::filesystem::path& file) {
   std::string name = file.stem().string();
   for (char& c : name)
@@ -80,7 +80,7 @@ std::vector<DefaultNote> add_file_defaults(Json& document, const std::filesystem
   }
   if (!document.contains("methods")) add_every_method(document, notes);
   add_force(document, notes);
-  // The schema's own defaults are for files that say more; one without path and probes is a first look at two meshes.
+  // The schema's defaults assume more; a file without path and probes is a first look.
   if (!document.contains("probes") && !document.contains("path") &&
       !document.contains(Json::json_pointer("/objects/0/motion")))
     for (const Probe& probe : probes())
@@ -98,7 +98,7 @@ double default_cutoff(const Scene& scene, std::vector<DefaultNote>& notes) {
   }
   const double by_size = DEFAULT_CUTOFF_DIAGONALS * diagonal;
   const double by_edges = DEFAULT_CUTOFF_EDGES * edge;
-  // Three digits: a number that one can say, and write into a file.
+  // Three digits are easy to say and to write into a file.
   const double cutoff = to_significant_digits(std::min(by_size, by_edges), 3);
   notes.push_back(
       {"/force/cutoff_m", fmt::format("{:g} m", cutoff),

@@ -14,7 +14,7 @@ namespace lmdbench {
 
 namespace {
 
-/// More are no world for a test, but a mistake in a count.
+/// A larger number is likely a mistake.
 constexpr std::int64_t MOST_INSTANCES = 1000000;
 
 }  // namespace

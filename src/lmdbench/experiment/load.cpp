@@ -79,7 +79,7 @@ MethodChoice method_choice(const Json& entry) {
   return choice;
 }
 
-/// Before the validator's check, which could only list the methods' names.
+/// Called before the validator, which could only list the names of methods.
 void check_method_names(const Json& document, const std::string& file) {
   if (!document.is_object() || !document.contains("methods") || !document["methods"].is_array()) return;
   const Json& methods = document["methods"];
@@ -88,7 +88,7 @@ void check_method_names(const Json& document, const std::string& file) {
       method_description(methods[i]["name"].get<std::string>(), file, fmt::format("/methods/{}/name", i));
 }
 
-/// Adds those that the file does not name, with their defaults.
+/// Adds methods that the file does not name, with default options.
 void add_methods(Json& document, const std::vector<std::string>& names) {
   if (!document.is_object() || !document.contains("methods") || !document["methods"].is_array()) return;
   Json& methods = document["methods"];
@@ -99,7 +99,7 @@ void add_methods(Json& document, const std::vector<std::string>& names) {
       methods.push_back({{"name", name}});
 }
 
-/// @param entries of the file; each is there once a profile
+/// @param entries number of entries in the file; each appears once a profile
 void check_labels(const std::vector<MethodChoice>& methods, std::size_t entries, const std::string& file) {
   std::set<std::string> labels;
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -156,7 +156,7 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
         "one thread searches: let the latency be at most search_every_frames");
   if (driver["kind"] == "realtime") {
     experiment.realtime = realtime_choice(driver["realtime"]);
-    // No second traversal is like the first, and when a search starts its thread decides.
+    // Traversals differ, and the search thread itself decides when a search starts.
     experiment.driver.repetitions = experiment.driver.search_every_frames = 1;
     experiment.driver.search_latency_frames = 0;
   }
@@ -173,7 +173,7 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   if (experiment.is_world() && held.path_file.empty())
     throw UsageError(file, held.path_place, "no path is made among instances",
                      "name a path (paths/README.md)");
-  // The schema's defaults, which the file does not say.
+  // Removes defaults of the schema for keys that the file does not use.
   if (document.contains("movers") && document["movers"].empty()) document.erase("movers");
   if (held.path_place != "/path/file") document.erase("path");
   experiment.resolved_json = document.dump(2);

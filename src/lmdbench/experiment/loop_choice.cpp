@@ -32,13 +32,13 @@ std::optional<Hand> hand_choice(const Json& entry, const std::string& file) {
   return hand;
 }
 
-/// The figure that the experiment gives, else the device's.
+/// The experiment's figure, else the device's.
 double figure(Json& entry, const char* key, const DeviceFigure& of_device) {
   if (!entry.contains(key)) entry[key] = of_device.value;
   return entry[key].get<double>();
 }
 
-/// The same hand on a lever, as its figures of rotation.
+/// The same hand at a lever arm, as figures of rotation.
 std::optional<Hand> at_lever(const std::optional<Hand>& hand, double lever) {
   if (!hand) return std::nullopt;
   const double squared = lever * lever;

@@ -54,7 +54,7 @@ ObjectMotion sway_motion(const Json& entry) {
   return motion;
 }
 
-/// @param motion what the entry's own key says of it
+/// @param motion as the entry's own key gives it
 ObjectChoice object_choice(const Json& entry, const std::string& place, ObjectMotion motion,
                            const std::filesystem::path& path) {
   const std::string file = path.string();
@@ -65,7 +65,7 @@ ObjectChoice object_choice(const Json& entry, const std::string& place, ObjectMo
   object.mesh = entry["mesh"].get<std::string>();
   object.placement = read_placement(entry);
   if (entry.contains("pose")) object.pose = pose_of(entry["pose"], place + "/pose", file);
-  // A number's own text is among those that the option takes.
+  // The option also takes a number as text.
   object.planar_tolerance =
       parse_planar_tolerance(tolerance.is_string() ? tolerance.get<std::string>() : tolerance.dump(), file,
                              place + "/planar_tolerance");

@@ -54,7 +54,7 @@ RuleVerdict truth_in_contact(const RuleFacts& facts) {
           fmt::format("{} of {} exhaustive searches would be of frames out of contact", empty, searches)};
 }
 
-/// Of the frames, in their order, those at the pose of the one before.
+/// How many of the frames, in their order, have the pose of the previous one.
 std::int64_t repeats_among(const std::vector<std::int64_t>& frames, std::span<const Pose> poses) {
   std::int64_t repeats = 0;
   for (std::size_t k = 1; k < frames.size(); ++k)
@@ -71,14 +71,14 @@ RuleVerdict repeated_pose(const RuleFacts& facts) {
   if (probed.empty() && fcl_frames.empty()) return {false, "no frame is probed"};
   if (facts.experiment.deforms()) return {false, DEFORMS};
   if (facts.experiment.several_move()) return {false, SEVERAL_MOVE};
-  // What a closed loop's encoders will tell nobody knows, but they count in steps.
+  // A closed loop's encoder readings are unknown here, but they count in steps.
   if (facts.experiment.loop.closed) {
     const bool steps = facts.experiment.loop.resolution_m > 0.0;
     return {steps, steps ? fmt::format("the device's encoders count in steps of {:g} m",
                                        facts.experiment.loop.resolution_m)
                          : "the simulated device's encoders are exact"};
   }
-  std::vector<std::int64_t> truth_frames;  // each is searched with the next one
+  std::vector<std::int64_t> truth_frames;  // each is searched with its next one
   for (const std::int64_t frame : probed) truth_frames.insert(truth_frames.end(), {frame, frame + 1});
   const std::int64_t truth = repeats_among(truth_frames, facts.poses);
   const std::int64_t fcl = repeats_among(fcl_frames, facts.poses);

@@ -14,16 +14,16 @@
 #include <string_view>
 #include <vector>
 
-/// What a run leaves out because the scene shows that it would change nothing. Each rule is data: a condition on the
-/// scene, what is left out, a switch of the experiment (`/plan/NAME`). None touches what a method does in a timed
-/// frame: a benchmark must not improve the algorithms that it compares.
+/// Work that a run leaves out because the scene shows that it changes nothing. Each rule is data: a
+/// condition on the scene, the work left out, a switch of the experiment (`/plan/NAME`). None
+/// touches a method's work in a timed frame: a benchmark must not improve what it compares.
 /// Results are the same bits with a rule and without it (`lmdbench-study leave-out`).
 namespace lmdbench {
 
 struct Experiment;
 struct ObjectChoice;
 
-/// The same bits.
+/// Equality of all bits.
 inline bool same_pose(const Pose& a, const Pose& b) {
   return a.translation == b.translation && a.rotation.coeffs() == b.rotation.coeffs();
 }
@@ -37,11 +37,11 @@ enum class Rule : std::uint8_t {
 };
 inline constexpr std::size_t RULE_COUNT = 5;
 
-/// "auto": where its condition holds. "on": its condition must hold. "off": never.
+/// "auto": on if its condition holds. "on": its condition must hold. "off": never.
 enum class RuleSwitch : std::uint8_t { AUTO, ON, OFF };
 using RuleSwitches = std::array<RuleSwitch, RULE_COUNT>;
 
-/// All that conditions look at.
+/// Inputs of the conditions.
 struct RuleFacts {
   const Experiment& experiment;
   std::span<const Pose> poses;          ///< Of the path's frames.
@@ -50,7 +50,7 @@ struct RuleFacts {
 
 struct RuleVerdict {
   bool holds = false;
-  std::string reason;  ///< With its figure.
+  std::string reason;  ///< With its number.
 };
 
 struct RuleDescription {
@@ -64,7 +64,7 @@ struct RuleDescription {
 /// In the order of `Rule`.
 std::span<const RuleDescription> rule_descriptions();
 
-/// "plan" of the experiment schema: a switch a rule.
+/// "plan" of the experiment schema: one switch for each rule.
 nlohmann::json rules_schema();
 
 /// @param entry  "plan" of an experiment with its defaults
@@ -91,21 +91,21 @@ std::string rules_text(const std::vector<RuleDecision>& decisions);
 /// [{"name", "on", "effect", "saving", "reason"}]
 nlohmann::ordered_json rules_json(const std::vector<RuleDecision>& decisions);
 
-/// Whether two choices make one rigid mesh of the same file in the same way; poses and motions aside.
+/// Whether two choices make the same rigid mesh of one file, apart from pose and motion.
 bool same_mesh(const ObjectChoice& a, const ObjectChoice& b);
 
-/// Whether object `index` stands at its pose in its own frame: it has "instances", or another one that stands has the same mesh. Not
-/// where somebody reads the vertices in the world frame (deformation, polylines, aggregations of surfaces and merges) or the first
-/// frame in which a mesh is near must not prepare anything (the driver realtime).
+/// Whether object `index` stands at its pose in its own frame: it has "instances", or shares its
+/// mesh with another standing one. Not where vertices are read in the world frame (deformation,
+/// polylines, aggregations of surfaces and merges) or frames may prepare nothing (realtime driver).
 bool stands_in_own_frame(const Experiment& experiment, std::size_t index);
 
-/// The last object before `index` that stands in its own frame, as this one does, with the same mesh.
+/// The last object before `index` with the same mesh that also stands in its own frame.
 std::optional<std::size_t> earlier_body(const Experiment& experiment, std::size_t index);
 
-/// The earlier object whose mesh, read and prepared, serves this one.
+/// The earlier object whose read and prepared mesh serves this one.
 std::optional<std::size_t> shared_body(const Experiment& experiment, std::size_t index);
 
-/// Whether some mesh stands so: its scene is a world (`Scene::is_world`).
+/// Whether some mesh stands in its own frame: then the scene is a world (`Scene::is_world`).
 bool has_placed_meshes(const Experiment& experiment);
 
 }  // namespace lmdbench

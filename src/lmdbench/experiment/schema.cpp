@@ -15,14 +15,14 @@
 
 namespace lmdbench {
 
-/// experiments/schema/experiment.schema.json as it was when the program was built.
+/// experiments/schema/experiment.schema.json as of the build.
 const std::string& experiment_schema_text();
 
 namespace {
 
 using Json = nlohmann::json;
 
-/// An entry of "methods" with every method's options: which ones there are depends on its name.
+/// An entry of "methods" with the options of each method, which depend on its name.
 void add_method_options(Json& entry) {
   Json choices = Json::array();
   for (const MethodDescription& method : method_descriptions()) {
@@ -37,7 +37,7 @@ void add_method_options(Json& entry) {
   entry["allOf"] = std::move(choices);
 }
 
-/// The aggregations that there are, each with what it is.
+/// The aggregations and their summaries.
 void add_aggregations(Json& choice) {
   choice["enum"] = aggregation_names();
   std::string text = choice["description"].get<std::string>();
@@ -54,7 +54,7 @@ void add_generators(Json& choice) {
 }  // namespace
 
 const Json& experiment_schema() {
-  // Plugins add methods at the start of the program; who has asked before keeps what it has.
+  // Plugins add methods at the program's start; earlier callers keep the schema they have.
   static std::map<std::size_t, Json> schemas;
   static std::mutex mutex;
   const std::lock_guard lock(mutex);

@@ -14,16 +14,15 @@
 #include <limits>
 
 // Steps of distance_by_all_candidates:
-// - sort the corners of each triangle and the two triangles, so that the caller's order cannot change a bit;
-// - triangles that cross by a margin are answered by the middle of the segment they share;
+// - sort the corners of each triangle and the triangles: the caller's order cannot change a bit;
+// - triangles that cross by a margin: the answer is the middle of the segment that they share;
 // - an exact intersection test for the others; the same answer where they share a clear segment;
 // - 9 edge pairs and 6 corner-face pairs, each a feasible pair of points; keep the nearest;
-// - where an edge is parallel to a face, or both faces are parallel, and as near: take the middle of
-//   the overlap.
+// - where a parallel edge and face, or parallel faces, are as near: take the middle of the overlap.
 //
-// Every candidate is feasible, so an error in one can only lose it, never report a distance
-// that is too small, and the candidates cover each other: near the border of two cases both are
-// within rounding of the minimum.
+// Every candidate is feasible, so an error in one may lose it but never reports a distance that is
+// too small. The candidates cover each other: near the border of two cases both are within rounding
+// of the minimum.
 
 namespace lmdbench::kernel {
 namespace {
@@ -203,8 +202,8 @@ TrianglePairDistance shared_point(const Vec3& point, double length, double toler
   return result;
 }
 
-/// The triangles cross by a margin with the middle of the shared segment inside both: the usual intersection,
-/// and no case for exact predicates.
+/// The triangles cross by a margin, the middle of the shared segment inside both: the usual
+/// intersection, which needs no exact predicates.
 bool is_certain_crossing(const Query& query, const SharedSegment& shared) {
   if (!query.face_a.has_face || !query.face_b.has_face || !shared.is_certain) return false;
   const Vec3 middle = shared.middle();
@@ -212,7 +211,7 @@ bool is_certain_crossing(const Query& query, const SharedSegment& shared) {
          query.face_b.is_interior(query.face_b.weights(middle));
 }
 
-/// The shared point with the features that carry it; at a corner, a copy of that.
+/// The shared point with the features that carry it; at a corner, a copy of the corner.
 TrianglePairDistance shared_point_on_features(const Query& query, const Vec3& point, double length) {
   const auto on_a = point_triangle_distance(point, query.a.corners);
   const auto on_b = point_triangle_distance(point, query.b.corners);
@@ -225,7 +224,7 @@ TrianglePairDistance shared_point_on_features(const Query& query, const Vec3& po
   return result;
 }
 
-/// The triangles' planes differ, so what intersecting triangles share is no polygon.
+/// The triangles' planes differ, so intersecting triangles share no polygon.
 bool have_different_planes(const Query& query) {
   if (!query.face_a.has_face || !query.face_b.has_face) return true;
   const Vec3 z = heights_over(query.face_a, query.b.corners);
@@ -235,8 +234,7 @@ bool have_different_planes(const Query& query) {
 /// The answer for any triangles that share a point: the middle of the shared set.
 TrianglePairDistance answer_intersection(const Query& query, const SharedSegment& shared,
                                          const TrianglePairDistance& nearest) {
-  // Triangles that touch, or that are coplanar, have the middle of what they share
-  // as the nearest pair already.
+  // For touching or coplanar triangles the nearest pair is the middle of the shared set already.
   const bool is_polygon =
       nearest.minimiser_dimension == 2 && std::sqrt(nearest.squared_distance) <= query.tolerance;
   const bool touching = nearest.squared_distance <= 4.0 * query.tolerance * query.tolerance;

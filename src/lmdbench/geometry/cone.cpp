@@ -16,7 +16,7 @@
 namespace lmdbench {
 namespace {
 
-/// Radians added to a half angle: a unit vector and an angle carry a few roundings of one epsilon each.
+/// Radians added to a half angle: a unit vector and an angle carry a few epsilons of rounding each.
 constexpr double CONE_WIDENING = 8.0 * std::numeric_limits<double>::epsilon();
 
 Cone cone_of_angle(const Vec3& axis, double half_angle) {
@@ -51,9 +51,9 @@ Cone cone_of_directions(std::span<const Vec3> unit_directions) {
     if (!direction.isZero(0.0)) tips.push_back(direction);
   }
   if (tips.empty()) return {};
-  // A plane cuts the unit sphere in a cap, so the smallest ball of the tips is centred on the axis of the
-  // smallest cap that holds them, as long as that cap is less than half the sphere. Otherwise the centre is
-  // near the origin.
+  // A plane cuts the unit sphere in a cap, so the smallest ball of the tips is centred on the axis
+  // of the smallest cap that holds them if that cap is less than half the sphere. Otherwise the
+  // centre is near the origin.
   const Vec3 centre = bounding_sphere(tips).centre;
   const double length = centre.norm();
   if (!(length > 0.0)) return {};

@@ -64,7 +64,7 @@ bool ConvexPolygon::holds(const Vec2& x, double reach) const {
 
 namespace {
 
-/// Whether all of b is farther than the reach outside some side of a.
+/// Whether all of b is farther than `reach` outside some side of a.
 bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double reach) {
   for (std::size_t k = 0; k < a.corners.size(); ++k) {
     const Vec2 side = a.corners[(k + 1) % a.corners.size()] - a.corners[k];
@@ -105,7 +105,7 @@ double width_of(std::span<const Vec2> hull) {
   if (hull.size() < 3) return 0.0;
   const auto next = [&](std::size_t k) { return k + 1 < hull.size() ? k + 1 : 0; };
   double width = std::numeric_limits<double>::infinity();
-  // The corner farthest from a side goes round as the side does (Shamos 1978).
+  // The corner farthest from a side advances with the side (Shamos 1978).
   std::size_t farthest = 1;
   for (std::size_t k = 0; k < hull.size(); ++k) {
     const Vec2 side = (hull[next(k)] - hull[k]).normalized();
@@ -128,8 +128,8 @@ const Vec2& farthest_along(std::span<const Vec2> hull, const Vec2& axis) {
         end = middle;
     return begin;
   };
-  // From the first corner to the rightmost and from there back sides turn by less than 180 degrees each: on the way that bounds the
-  // hull towards the axis corners first rise along it and then fall.
+  // The sides turn by less than 180 degrees from the first corner to the rightmost, and again on
+  // the way back. On the chain towards the axis, corners first rise along it, then fall.
   const std::size_t right = first_without(0, hull.size() - 1, [&](std::size_t k) {
     const Vec2 side = corner(k + 1) - corner(k);
     return side[0] > 0.0 || (side[0] == 0.0 && side[1] > 0.0);

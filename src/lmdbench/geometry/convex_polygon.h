@@ -59,14 +59,14 @@ struct SegmentPart {
   double begin = 0.0, end = 0.0;
 };
 
-/// Corners of the convex hull, counter-clockwise, none of them between two others (Andrew 1979).
+/// Corners of the convex hull, counter-clockwise, none on the line of its neighbours (Andrew 1979).
 /// @param points  changes their order
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 
 /// Least distance of two parallel lines that hold a convex polygon between them [m].
 double width_of(std::span<const Vec2> hull);
 
-/// The corner of a convex hull (`convex_hull`) that lies farthest along an axis, in time logarithmic in the corners.
+/// Corner of a convex hull (`convex_hull`) farthest along an axis; logarithmic in the corners.
 const Vec2& farthest_along(std::span<const Vec2> hull, const Vec2& axis);
 
 /// Convex polygon in a plane, corners counter-clockwise.
@@ -78,8 +78,8 @@ struct ConvexPolygon {
   /// Projection of a triangle, turned over where it runs clockwise.
   ConvexPolygon(const PlanarFrame& frame, const Triangle& triangle);
 
-  /// The common part: every side of the other cuts this one (Sutherland and Hodgman 1974). Without corners
-  /// where there is none.
+  /// The part that both have: every side of the other cuts this one (Sutherland and Hodgman 1974).
+  /// It has no corners where the polygons do not overlap.
   ConvexPolygon cut_by(const ConvexPolygon& other) const;
   /// The part of the segment from p to q that lies inside.
   /// @param reach  how far outside still counts as inside [m]
@@ -88,7 +88,7 @@ struct ConvexPolygon {
   Box2 box() const;
   /// Whether a point is inside, or outside by no more than `reach` of every side [m].
   bool holds(const Vec2& x, double reach) const;
-  /// Whether no side of either keeps the two farther than `reach` apart [m]: true when their distance is no more.
+  /// False where a side of either keeps the two farther than `reach` [m] apart; else true.
   bool touches(const ConvexPolygon& other, double reach) const;
 };
 

@@ -9,11 +9,11 @@
 
 namespace lmdbench {
 
-/// Exact number as an unevaluated sum of doubles that do not overlap, smallest first (T. J. Dekker 1971; J.
-/// R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997).
-/// Sums and products are exact unless a partial product underflows or overflows. `Capacity` bounds the number
-/// of terms. Used only where a rounding error bound could not decide a sign, so it is written for clarity,
-/// not for speed.
+/// Exact number: an unevaluated sum of doubles that do not overlap, smallest first (T. J. Dekker
+/// 1971; J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+/// predicates", 1997). Sums and products are exact unless a partial product underflows or
+/// overflows. `Capacity` bounds the number of terms. Written for clarity, not for speed: it is used
+/// only where a rounding error bound cannot decide a sign.
 template <int Capacity>
 struct Expansion {
   std::array<double, Capacity> terms;

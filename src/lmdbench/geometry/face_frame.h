@@ -13,11 +13,11 @@
 
 namespace lmdbench::kernel {
 
-/// A triangle's plane, held as its longest edge e = b - a and the altitude h on it, with c = a + u e + h.
-///
-/// Both are known to a few roundings of the edge's length whatever the aspect ratio, where the
-/// cross product of two edges of a needle loses every digit. Weights of a projected point follow
-/// from two divisions along e and h.
+/// A triangle's plane, held as its longest edge e = b - a and the altitude h on it, with c = a + u
+/// e + h.
+/// Both are accurate to a few roundings of the edge's length whatever the aspect ratio, where the
+/// cross product of two edges of a needle loses every digit. Two divisions along e and h give the
+/// weights of a projected point.
 struct FaceFrame {
   Vec3 a, e, h, ca;        ///< ca = c - a
   double squared_e = 0.0;  ///< |e|^2
@@ -26,7 +26,7 @@ struct FaceFrame {
   Vec3 squared_heights;  ///< squared altitudes through a, b and c
   double squared_tolerance;
   std::array<int, 3> corner{0, 1, 2};  ///< which corners a, b and c are
-  bool has_face = false;               ///< false when the altitude is rounding: a segment or a point
+  bool has_face = false;               ///< false: the altitude is rounding, a segment or point
 
   /// Weights of corners a, b, c of the projection of x.
   struct Weights {

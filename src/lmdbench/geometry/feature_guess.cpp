@@ -35,8 +35,8 @@ using Quad = hn::FixedTag<float, 4>;
 using QuadReal = hn::Vec<Quad>;
 using QuadVector = LaneVector<QuadReal>;
 
-/// Slots of edge pairs, four times the edge of a plus the edge of b, as many at a time as a register holds.
-/// The last of three fours is repeated to fill the widest register.
+/// Slots of edge pairs: four times the edge of a plus the edge of b, as many at a time as a
+/// register holds. The last of three fours is repeated to fill the widest register.
 constexpr std::size_t SLOTS = 16;
 using Wide = hn::CappedTag<float, SLOTS>;
 using WideReal = hn::Vec<Wide>;
@@ -70,8 +70,8 @@ HWY_INLINE QuadVector spread(const QuadVector& v) {
   return {hn::Broadcast<K>(v.x), hn::Broadcast<K>(v.y), hn::Broadcast<K>(v.z)};
 }
 
-/// Part of an edge or face from which on single precision knows an inner point from one on the border. A
-/// point nearer to the border is taken to be on it: from there one more step leads inside.
+/// Part of an edge or face from which single precision tells an inner point from the border. A
+/// point nearer to the border is taken to be on it: one more step leads inside from there.
 constexpr float CLEARLY = 1e-3F;
 
 /// The corners of one triangle over the face of the other.
@@ -96,8 +96,8 @@ HWY_INLINE OverFace over_face(const QuadVector& t, const QuadVector& face, const
   OverFace result;
   result.squared_height = hn::IfThenElse(hn::Gt(least, hn::Mul(hn::Set(Quad(), CLEARLY), squared_n)),
                                          hn::Mul(height, part), hn::Set(Quad(), HUGE_VALF));
-  // Where an edge meets the plane: heights of its ends and weights there over the edge's drop, all of the
-  // drop's sign where it pierces the face.
+  // Where an edge meets the plane: heights of its ends and weights there, both times the edge's
+  // drop. All have the drop's sign where the edge pierces the face.
   const QuadReal next_part = next(part);
   const QuadReal drop = hn::Sub(part, next_part);
   const auto at_plane = [&](QuadReal weight) {

@@ -11,26 +11,25 @@
 #include <limits>
 
 // Steps of prove_by_features:
-// - triangles that are far apart for their size: start at the corners that are farthest towards the other
+// - triangles that are far apart for their size: start at the corners farthest towards the other
 //   triangle and take the edges from there that lead ahead;
-// - else, or where that proves nothing: the features that a quick look at all candidates finds nearest
-//   (triangle_distance_steps.h);
+// - else, or where that proves nothing: start from guess_features (triangle_distance_steps.h);
 // - solve for the nearest points p, q of these features (corner, edge or face);
-// - with d = q - p look for a corner of a beyond p along d, or of b beyond q along -d. If every corner that
-//   does not carry the pair is behind by a clear margin, the plane through p across d and the one through q
-//   keep the triangles apart by |d|: the pair is the minimum, it is unique, and the triangles are disjoint.
-//   This is a proof, not the slab test along a cross product of edges whose rounding makes the usual early
-//   exit of such kernels go wrong.
+// - with d = q - p look for a corner of a beyond p along d, or of b beyond q along -d. If all
+//   corners that do not carry the pair are behind by a clear margin, the planes through p and q
+//   across d keep the triangles |d| apart: they are disjoint and the pair is the unique minimum.
+//   This is a proof; rounding spoils the usual early exit, a slab test along a cross product of
+//   edges.
 // - the pair must also be nearer than every other pair of the same features by more than rounding.
 //
-// The features tried may depend on the order of corners and arguments; the outcome does not, because a proved
-// minimum is unique and its two points come from functions of its features alone.
+// The order of corners and arguments may change the features tried but not the outcome: a proved
+// minimum is unique, and its two points are functions of its features alone.
 
 namespace lmdbench::kernel {
 namespace {
 
-/// How many tolerances make a margin clear. The examination of all candidates takes an overlap of features
-/// that drift apart by one tolerance as parallel and answers by its middle; half a clear margin must still be
+/// Tolerances in a clear margin. distance_by_all_candidates takes features that drift apart by one
+/// tolerance as parallel and answers with the middle of the overlap; half a clear margin must be
 /// far beyond that.
 constexpr double CLEARANCE = 16.0;
 
@@ -43,15 +42,15 @@ struct Separation {
   Vec3 point;  ///< of this triangle
   Vec3 d;      ///< to the other's
   double squared_d;
-  /// Square of the length below which a corner is neither ahead nor behind: it covers the error of d (a few
-  /// roundings of the coordinates) and the drift that counts as parallel.
+  /// Square of the length below which a corner is neither ahead nor behind: covers the error of d
+  /// (a few roundings of the coordinates) and the drift that counts as parallel.
   double squared_margin;
   double squared_rise;  ///< as in PointsOnSegments; infinite for two corners
 };
 
-/// The corner that `way` leads to is behind the plane across d by a clear margin. So is a point as far on the
-/// way as the pair is from the ends of its features: from such an end the other features may start.
-/// @param squared_scale of the way, which may be given longer than it is
+/// The corner at the end of `way` is behind the plane across d by a clear margin; so is the point
+/// as far on the way as the pair is from the ends of its features, where other features start.
+/// @param squared_scale of the way, which may be longer than the real one
 bool is_behind(const Vec3& way, double squared_scale, const Separation& pair) {
   const double ahead = way.dot(pair.d);
   const double squared_ahead = squared(ahead);
@@ -69,15 +68,15 @@ bool are_others_behind(const Triangle& t, const Carriers& carriers, const Separa
     case 1: {
       const Vec3& second = t[carriers.corner[0] == 2 ? 0 : carriers.corner[0] + 1];
       const Vec3& third = t[carriers.corner[0] == 0 ? 2 : carriers.corner[0] - 1];
-      // Both, because which one is not behind is a coin toss for the branch predictor.
+      // Both are computed, because the branch predictor could only guess which one is not behind.
       const bool is_second_behind = is_behind(second - first, 1.0, pair);
       const bool is_third_behind = is_behind(third - first, 1.0, pair);
       return is_second_behind & is_third_behind;
     }
     case 2: {
-      // The way to the third corner across the edge: along the edge d says nothing but rounding. Times |e|^2,
-      // which saves the division. The neighbouring edges come as near to the point as it is to their common
-      // corner, in parts of the edge: so far on the way must be clear, too.
+      // The way to the third corner across the edge, because d along the edge is only rounding;
+      // times |e|^2 to save the division. The other edges come as near to the point as it is to
+      // their corner, in parts of the edge: the way must be clear at that part, too.
       const Vec3 e = t[carriers.corner[1]] - first;
       const Vec3 way = t[3 - carriers.corner[0] - carriers.corner[1]] - first;
       const double squared_e = e.squaredNorm();
@@ -93,7 +92,7 @@ bool are_others_behind(const Triangle& t, const Carriers& carriers, const Separa
   }
 }
 
-/// Which of two neighbours that are both ahead.
+/// The choice between two neighbours that are both ahead.
 enum class Neighbour { STEEPER, FLATTER };
 
 /// Makes an edge of a corner that has a neighbour ahead along d.
@@ -137,7 +136,7 @@ struct PointOnPart {
   Vec3 point;
   double squared_distance = std::numeric_limits<double>::infinity();
   double squared_rise = 0.0;  ///< as in PointsOnSegments
-  double widening = 1.0;      ///< factor on the squared margin: how badly the face's shape magnifies rounding
+  double widening = 1.0;      ///< of the squared margin: the face's shape magnifies rounding
 };
 
 /// Nearest points of both triangles' carriers.
@@ -228,8 +227,8 @@ PointOnPart solve_part_to_corner(const Triangle& t, Carriers& carriers, const Ve
   }
 }
 
-/// No other pair of points of the same features is as near up to rounding: the features are not nearly
-/// parallel, and the points are not so near an end or a border that a lower feature would do.
+/// No other pair of points of these features is as near up to rounding: they are not nearly
+/// parallel, and the points are not so near an end or border that a lower feature would do.
 bool is_clear_minimum(const Pair& pair, double squared_margin) {
   return pair.squared_rise > squared_margin &&
          squared(pair.squared_rise) > squared_margin * pair.squared_distance;
@@ -278,7 +277,7 @@ struct Attempt {
            (two_corners || is_clear_minimum(pair, squared_margin));
   }
 
-  /// Solves, and stores the result if it is proved.
+  /// Solves, and stores the result where it is proved.
   bool succeeds(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result) {
     solve(a, b, tolerance);
     if (!is_proved(a, b, squared(CLEARANCE * tolerance))) return false;
@@ -294,14 +293,14 @@ struct Attempt {
   }
 };
 
-/// Squared distance of the centres over the summed squares of two edges each, from which on the first step
-/// proves most pairs. Decides about time only.
+/// Squared distance of the centres over the summed squares of two edges each, from which on the
+/// first step proves most pairs. Changes only the time.
 constexpr double FAR_APART = 0.5;
 
 bool are_far_apart(const Triangle& a, const Triangle& b, const Vec3& toward_b) {
   const double squared_sizes = (a[1] - a[0]).squaredNorm() + (a[2] - a[0]).squaredNorm() +
                                (b[1] - b[0]).squaredNorm() + (b[2] - b[0]).squaredNorm();
-  return toward_b.squaredNorm() > 9.0 * FAR_APART * squared_sizes;  // toward_b joins sums of three corners
+  return toward_b.squaredNorm() > 9.0 * FAR_APART * squared_sizes;  // the centres, times three
 }
 
 }  // namespace
@@ -321,8 +320,8 @@ bool prove_by_features(const Triangle& a, const Triangle& b, double tolerance, T
   attempt.carriers_a = guess.on_a;
   attempt.carriers_b = guess.on_b;
   if (attempt.succeeds(a, b, tolerance, result)) return true;
-  // Edges at a small angle: single precision may take their crossing for an end. The flatter neighbour is the
-  // one that runs along the other edge.
+  // Edges at a small angle: single precision may take their crossing for an end. The flatter
+  // neighbour runs along the other edge.
   return attempt.extend(a, b, attempt.pair.point_b - attempt.pair.point_a, Neighbour::FLATTER) &&
          attempt.succeeds(a, b, tolerance, result);
 }

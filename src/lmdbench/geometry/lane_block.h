@@ -8,7 +8,7 @@
 
 namespace lmdbench::kernel {
 
-/// Pairs that a stage of the batch takes at a time: eight doubles are the widest vector there is; narrower
+/// Pairs that a stage of the batch takes at a time: the widest vectors hold eight doubles, narrower
 /// ones take the block in pieces.
 inline constexpr std::size_t MAX_LANES = 8;
 
@@ -28,7 +28,7 @@ inline void load(LaneBlock& block, std::size_t lane, const Triangle& a, const Tr
   }
 }
 
-/// Gaps and the unit vectors along which they are, one lane a pair.
+/// Gaps, and the unit vectors along which they are measured, one lane a pair.
 struct LaneGap {
   alignas(64) double gap[MAX_LANES];
   alignas(64) double axis[3][MAX_LANES];

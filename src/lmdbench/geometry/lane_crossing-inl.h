@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Stage of the batches of triangle pairs: pairs that cross clearly. Included once for every instruction set.
+// Batches of triangle pairs: pairs that cross clearly. Included once for every instruction set.
 #if defined(LMDBENCH_LANE_CROSSING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_LANE_CROSSING_INL
 #undef LMDBENCH_LANE_CROSSING_INL
@@ -53,8 +53,8 @@ HWY_INLINE Real least_of(const Three<Real>& w) {
   return hn::Min(w.v[0], hn::Min(w.v[1], w.v[2]));
 }
 
-/// A triangle's corners or their numbers, beginning with corner 1 or 2 where a mask says so, else
-/// with corner 0; in the same sense of rotation.
+/// A triangle's corners, or their numbers, in the same sense of rotation: beginning with corner 1
+/// or 2 where a mask says so, else with corner 0.
 template <class T>
 HWY_INLINE Three<T> turned(const Three<T>& t, Mask first_is_1, Mask first_is_2) {
   Three<T> result;
@@ -63,15 +63,15 @@ HWY_INLINE Three<T> turned(const Three<T>& t, Mask first_is_1, Mask first_is_2) 
   return result;
 }
 
-/// Crossing triangles share at least this part of a chord, and its middle is at least this part away from all
-/// borders; the rest is left to the scalar kernel's exact predicates.
+/// Least part of a chord that clearly crossing triangles share, and least distance of its middle
+/// from all borders (relative). The scalar kernel's exact predicates take the other pairs.
 constexpr double LEAST_CROSSING_PART = 1e-4;
-/// Squared sine of the angle between the chord and an edge that cuts it, in the worst-shaped face: see `cut`.
+/// Squared sine of the least angle of chord and cutting edge, in the worst-shaped face: see `cut`.
 constexpr double LEAST_SQUARED_FALL = 1e-6;
 
-/// The part of a chord from `from` to `to` where a weight that is linear along it is not negative. Leaves
-/// only lanes in `clear` whose weight falls by `least_squared_fall` at least where it is cut: a chord along
-/// the edge has no clear cut.
+/// The part of a chord from `from` to `to` where a weight that is linear along it is not negative.
+/// A lane remains in `clear` only where the weight falls by `least_squared_fall` or more if it is
+/// cut: a chord along the edge has no clear cut.
 HWY_INLINE void cut(Real from, Real to, Real least_squared_fall, Real& begin, Real& end, Mask& clear) {
   const Mask starts_out = hn::Lt(from, zero());
   const Mask ends_out = hn::Lt(to, zero());
@@ -83,8 +83,8 @@ HWY_INLINE void cut(Real from, Real to, Real least_squared_fall, Real& begin, Re
   clear = hn::AndNot(hn::And(hn::Or(starts_out, ends_out), hn::Lt(squared(fall), least_squared_fall)), clear);
 }
 
-/// Lanes where the triangles cross clearly, with the middle of the segment that they share inside both: the
-/// chord that the plane of a cuts out of b, cut by the edges of a.
+/// Lanes where the triangles cross clearly, the middle of the shared segment inside both. The
+/// segment is the chord that the plane of a cuts out of b, cut by the edges of a.
 inline std::uint32_t crossing(const LaneBlock& block, LaneCrossing& result) {
   const Real one = constant(1.0);
   std::uint32_t done = 0;
@@ -117,8 +117,8 @@ inline std::uint32_t crossing(const LaneBlock& block, LaneCrossing& result) {
     for (int i = 0; i < 2; ++i) {
       const Vector edge = turned_b.v[i + 1] - turned_b.v[0];
       const Real drop = hn::Sub(h.v[0], h.v[i + 1]);
-      // The edge must not be nearly parallel to the plane, or the chord's end is not
-      // where the scalar kernel has it.
+      // An edge that is nearly parallel to the plane would put the chord's end elsewhere than the
+      // scalar kernel does.
       clear = hn::And(clear, hn::Gt(squared(drop), hn::Mul(constant(MIN_SQUARED_SINE),
                                                            hn::Mul(face.squared_n, dot(edge, edge)))));
       part[i] = hn::Div(h.v[0], select(hn::Eq(drop, zero()), one, drop));

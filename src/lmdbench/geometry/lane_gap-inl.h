@@ -14,10 +14,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {
 
-/// The best axis of each lane so far. Any axis that is computed is as good as the exact one: only the extents
-/// along it must be right, and those are off by roundings of the coordinates.
+/// The best axis of each lane so far. An axis needs no accuracy: only the extents along it must be
+/// right, and these are off by roundings of the coordinates.
 struct BestGap {
-  Real squared_gap, squared_length;  ///< Of the gap: 0 where there is none. Of the axis.
+  Real squared_gap, squared_length;  ///< Of the gap (0: no gap) and of the axis.
   Vector axis;                       ///< From a towards b.
 
   /// @param a1, a2, b corners less a's first one
@@ -40,7 +40,7 @@ struct BestGap {
   }
 };
 
-/// The largest gap along the normals and the products of two sides, 0 where there is none, and its axis.
+/// The largest gap along the normals and the products of two sides (0: no gap), and its axis.
 inline void clear_gap(const LaneBlock& block, LaneGap& result) {
   const Lanes d;
   for (std::size_t lane = 0; lane < MAX_LANES; lane += hn::Lanes(d)) {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Triangle pairs in lanes. Included once for every instruction set, hence no ordinary include
-// guard.
+// Triangle pairs in lanes. Included once for every instruction set: no ordinary include guard.
 #if defined(LMDBENCH_LANE_TRIANGLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_LANE_TRIANGLE_INL
 #undef LMDBENCH_LANE_TRIANGLE_INL
@@ -31,10 +30,9 @@ using Real = hn::Vec<Lanes>;
 using Mask = hn::Mask<Lanes>;
 using Vector = LaneVector<Real>;
 
-/// Margins are this many COINCIDENCE_TOLERANCE of the largest coordinate wide, as in feature_proof.cpp.
+/// Margins, in COINCIDENCE_TOLERANCE of the largest coordinate, as in feature_proof.cpp.
 constexpr double MARGIN = 16.0 * COINCIDENCE_TOLERANCE;
-/// Edges at a smaller angle and faces with a smaller altitude (relative, squared) are left to the scalar
-/// kernel.
+/// The scalar kernel takes edges at a smaller angle and faces with a smaller (relative) altitude.
 constexpr double MIN_SQUARED_SINE = 1e-4;
 /// Range of coordinates in which no product overflows or loses digits, as in triangle_distance.
 constexpr double SMALLEST_COORDINATE = 0x1p-100;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Vectors of R^3 in lanes. Included once for every instruction set, hence no ordinary include guard.
+// Vectors of R^3 in lanes. Included once for every instruction set: no ordinary include guard.
 #if defined(LMDBENCH_LANE_VECTOR_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_LANE_VECTOR_INL
 #undef LMDBENCH_LANE_VECTOR_INL

@@ -13,8 +13,7 @@ namespace {
 
 /// Half a unit in the last place of 1: the largest relative error of one rounding.
 constexpr double ROUNDING = 0.5 * std::numeric_limits<double>::epsilon();
-/// The same of the widest type that the processor computes in; where that is double
-/// again, its filter decides nothing.
+/// The same for the widest type of the processor; where that is double, its filter decides nothing.
 constexpr long double EXTENDED_ROUNDING = 0.5L * std::numeric_limits<long double>::epsilon();
 /// Error bounds of the filters, relative to the sum of the absolute products
 /// (Shewchuk 1997, section 4.3 and 4.4).
@@ -29,8 +28,8 @@ int sign(Real value) {
 /// The error of a larger product does not underflow.
 constexpr double LEAST_PRODUCT = 0x1p-900;
 
-/// A number that knows whether it is exact. Coordinates on a lattice, and corners that share coordinates,
-/// keep every operation exact; then the sign is known without more terms.
+/// A number with a flag that it is exact. Coordinates on a lattice, and corners that share
+/// coordinates, keep every operation exact; then the sign needs no more terms.
 struct Tracked {
   double value;
   bool exact;
@@ -128,7 +127,7 @@ struct PlaneThrough {
     const double determinant = w.dot(normal);
     const double permanent = w.cwiseAbs().dot(magnitudes);
     if (std::abs(determinant) > ORIENT_3D_BOUND * permanent) return sign(determinant);
-    // Shared corners and axis-parallel planes are the common reasons to be here, then lattices and rounding.
+    // First the common cases: shared corners, axis-parallel planes. Then lattices and rounding.
     if (d == a || d == b || d == c || a == b || b == c || c == a) return 0;
     if (is_across_an_axis(a, b, c, d)) return 0;
     if (const auto result = tracked_orientation_3d(a, b, c, d)) return *result;

@@ -106,8 +106,8 @@ FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, dou
   result.area = whole.area;
   result.centroid_on_first =
       first.a + whole.centroid[0] / length_e * first.e + whole.centroid[1] / length_h * first.h;
-  // Two faces that drift apart by rounding only may still be at an angle, where one is tiny: the
-  // perpendicular of the first then meets the second's plane elsewhere than that of the second.
+  // Two faces that drift apart by rounding only may be at an angle where one is tiny: the
+  // perpendiculars of the two faces then meet the second's plane at different points.
   FaceFrame::Weights on_second = second.weights(result.centroid_on_first);
   if (second.is_outside(on_second)) on_second = planar_weights(projected, whole.centroid);
   result.centroid_on_second = second.point(on_second);
@@ -116,9 +116,9 @@ FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, dou
 
 namespace {
 
-/// Part of the longest edge by which the corners are off the plane, and the overlap is long, in a certain
-/// intersection; also the least ratio of altitude and edge of the face. Rounding moves the ends of the chord
-/// by 1e-16 over this.
+/// In a certain intersection: least height of the corners over the plane and least overlap, in
+/// parts of the longest edge; also least ratio of the face's altitude and edge. Rounding moves the
+/// ends of the chord by 1e-16 over this.
 constexpr double CERTAIN_PART = 1e-5;
 
 }  // namespace
@@ -136,7 +136,7 @@ SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners) {
   if (count == 3) return result;  // coplanar
   for (const auto& [i, j] : EDGE_ENDS) {
     if (!(height[i] * height[j] < 0.0) || count == 2) continue;
-    // From the nearer end, where the division is the more accurate.
+    // From the nearer end, where the division is more accurate.
     const int near = std::abs(height[i]) <= std::abs(height[j]) ? i : j;
     const int far = i + j - near;
     ends[count++] =

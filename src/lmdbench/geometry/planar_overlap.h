@@ -14,8 +14,8 @@ struct EdgeOverFace {
   double length = 0.0;
 };
 
-/// Overlap of the segment x0 x1, parallel to the face's plane, with the face. Does not exist where it is
-/// shorter than the tolerance or runs along an edge of the face (which the edges answer).
+/// Overlap of the segment x0 x1, parallel to the face's plane, with the face. Does not exist where
+/// it is shorter than the tolerance or along an edge of the face (edge pairs find that).
 EdgeOverFace edge_over_face(const Vec3& x0, const Vec3& x1, const FaceFrame& face, double tolerance);
 
 /// Overlap of two parallel faces, projected on the first.
@@ -30,7 +30,7 @@ FaceOverFace face_over_face(const FaceFrame& first, const FaceFrame& second, dou
 
 /// What two intersecting triangles of different planes share.
 struct SharedSegment {
-  bool is_clear = false;  ///< false where there is no chord, or only rounding lets it and the face overlap
+  bool is_clear = false;  ///< false without a chord, or if only rounding has it over the face
   bool is_certain =
       false;  ///< the triangles intersect by a margin (CERTAIN_PART) that needs no exact predicate
   Vec3 begin, end;
@@ -39,9 +39,9 @@ struct SharedSegment {
   Vec3 middle() const { return 0.5 * (begin + end); }
 };
 
-/// Cuts `corners` by the face's plane and keeps the part of the chord over the face. The chord lies on the
-/// edges of `corners`, the cut follows the frame of `face`, so both ends are on both triangles up to rounding
-/// however thin `corners` is; the better-shaped triangle should be the face.
+/// Cuts `corners` by the face's plane and keeps the part of the chord over the face. The chord lies
+/// on edges of `corners` and is cut in the frame of `face`, so both ends are on both triangles up
+/// to rounding however thin `corners` is. The better-shaped triangle should be the face.
 /// @pre corners in lexicographic order, face.has_face
 SharedSegment shared_segment(const FaceFrame& face, const Triangle& corners);
 

@@ -12,10 +12,10 @@ namespace lmdbench {
 struct PointTriangleDistance {
   double squared_distance = std::numeric_limits<double>::quiet_NaN();
   Vec3 point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< on the triangle
-  TriangleFeature feature = TriangleFeature::FACE;  ///< Lowest-dimensional part that carries `point`.
+  TriangleFeature feature = TriangleFeature::FACE;  ///< Lowest-dimensional feature of `point`.
 };
 
-/// Point of the triangle nearest to `point`. A corner is reported as a bit-copy; permuting corners changes
+/// Point of the triangle nearest to `point`. A corner is a bit-copy; permuting the corners changes
 /// only the names of the features. Degenerate triangles are segments or points.
 PointTriangleDistance point_triangle_distance(const Vec3& point, const Triangle& triangle);
 

@@ -9,7 +9,7 @@
 
 namespace lmdbench {
 
-/// Rigid transform X_WM of the moving mesh's frame M into the world W: p_W = rotation * p_M + translation.
+/// Rigid transform X_WM of the moving mesh's frame M: p_W = rotation * p_M + translation.
 struct Pose {
   Vec3 translation = Vec3::Zero();                               ///< p_WM, metres.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< R_WM, unit length.
@@ -24,8 +24,8 @@ struct Pose {
   }
 };
 
-/// A pose with its rotation expanded to a matrix: what inner loops use. Every method transforms points with
-/// this one expression, so that the same vertex has the same bits everywhere.
+/// A pose with its rotation expanded to a matrix, for inner loops. Every method transforms points
+/// with this one expression, so that the same vertex has the same bits everywhere.
 struct RigidTransform {
   Mat3 rotation = Mat3::Identity();
   Vec3 translation = Vec3::Zero();

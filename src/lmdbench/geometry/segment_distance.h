@@ -13,7 +13,7 @@ namespace lmdbench {
 /// From end 0 to end 1; a segment with equal ends is a point.
 using Segment = std::array<Vec3, 2>;
 
-/// The part of a segment that carries a closest point.
+/// The feature of a segment that carries a closest point.
 enum class SegmentFeature : std::uint8_t { V0, V1, EDGE };
 
 struct PointSegmentDistance {
@@ -23,8 +23,8 @@ struct PointSegmentDistance {
 };
 
 /// Closest points of two segments. The invariants are those of TrianglePairDistance: the squared
-/// distance is that of the two points, ends are reported as bit-copies, the overlap of parallel
-/// segments is answered by its middle.
+/// distance is that of the two points, ends are bit-copies, parallel segments that overlap give the
+/// middle of the overlap.
 struct SegmentPairDistance {
   double squared_distance = std::numeric_limits<double>::quiet_NaN();
   Vec3 point_a = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -35,11 +35,11 @@ struct SegmentPairDistance {
   double minimiser_measure = 0.0;  ///< length of the overlap
 };
 
-/// Point of the segment nearest to `point`. Turning the segment round changes
-/// nothing but the names of its ends.
+/// Point of the segment nearest to `point`. Reversing the segment changes only the names of its
+/// ends.
 PointSegmentDistance point_segment_distance(const Vec3& point, const Segment& segment);
 
-/// Swapping the segments or turning one round gives the same points bit for bit.
+/// Swapping the segments or reversing one gives the same points bit for bit.
 SegmentPairDistance segment_distance(const Segment& a, const Segment& b);
 
 }  // namespace lmdbench

@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 
-/// Inner functions of the distance queries, inline because the triangle kernel calls them up to nine times a
-/// pair. Every segment comes with its ends in lexicographic order, so that an edge seen from two neighbouring
-/// triangles gives the same bits; `tolerance` is coincidence_length of the coordinates at hand. The result
-/// types leave their members unset on purpose: every path sets all of them, and filling them first costs a
-/// tenth of a query.
+/// Inner functions of the distances, inline because the triangle kernel calls them up to nine times
+/// a pair. Every segment comes with its ends in lexicographic order, so that an edge gives the same
+/// bits from both its triangles; `tolerance` is coincidence_length of the coordinates. The result
+/// types leave their members unset on purpose: every path sets all of them, and filling them first
+/// costs a tenth of the time.
 namespace lmdbench::kernel {
 
 struct PointOnSegment {
@@ -23,12 +23,12 @@ struct PointOnSegment {
   SegmentFeature feature;
 };
 
-/// Closest points p and q of two segments, with what minimiser_dimension and minimiser_measure say.
+/// Closest points p and q of two segments.
 struct PointsOnSegments {
   Vec3 p, q;
   double squared_distance;
-  /// Lower bound of how much the squared distance grows from here to any end of a segment that is met inside;
-  /// 0 where none is. Where it drowns in rounding, other pairs are as near as this one.
+  /// Lower bound of the growth of the squared distance from here to any end of a segment whose
+  /// inside holds the point; else 0. Where it is lost in rounding, other pairs are as near.
   double squared_rise;
   double overlap_length;  ///< 0 where the minimiser is a single pair
   SegmentFeature feature_p, feature_q;
@@ -39,7 +39,7 @@ inline PointOnSegment project_on_segment(const Vec3& x, const Vec3& p0, const Ve
   PointOnSegment result;
   const Vec3 d = p1 - p0;
   const double squared_length = d.squaredNorm();
-  // Distances along the segment from both ends, times its length: each is accurate near its own end.
+  // Distances along the segment from both ends, times its length; each is accurate near its end.
   const double from_p0 = (x - p0).dot(d);
   const double from_p1 = (p1 - x).dot(d);
   const double squared_limit = tolerance * tolerance * squared_length;
@@ -55,7 +55,7 @@ inline PointOnSegment project_on_segment(const Vec3& x, const Vec3& p0, const Ve
     result.squared_rise = 0.0;
     return result;
   }
-  // From the nearer end, where the division is the more accurate.
+  // From the nearer end, where the division is more accurate.
   const bool first = from_p0 <= from_p1;
   const double part = (first ? from_p0 : -from_p1) / squared_length;
   result.point = (first ? p0 : p1) + part * d;
@@ -65,8 +65,7 @@ inline PointOnSegment project_on_segment(const Vec3& x, const Vec3& p0, const Ve
   return result;
 }
 
-/// Closest pair given that it has the end `end_of_q` of q, or, where that end is
-/// nearest to an end of p, that end.
+/// Closest pair that has the end `end_of_q` of q, or of the ends of p the one nearest to it.
 inline void pair_from_end_of_q(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
                                SegmentFeature end_of_q, double tolerance, PointsOnSegments& result) {
   const Vec3& q = end_of_q == SegmentFeature::V0 ? q0 : q1;
@@ -88,7 +87,7 @@ inline void pair_from_end_of_q(const Vec3& p0, const Vec3& p1, const Vec3& q0, c
   }
 }
 
-/// Closest pair given that it has the end p of one segment: the other segment need only be projected on.
+/// Closest pair that has the end p of one segment: only the other segment is projected on.
 inline void pair_from_end_of_p(const Vec3& p, SegmentFeature end_of_p, const Vec3& q0, const Vec3& q1,
                                double tolerance, PointsOnSegments& result) {
   const PointOnSegment on_q = project_on_segment(p, q0, q1, tolerance);
@@ -129,14 +128,12 @@ inline void parallel_segments(const Vec3& p0, const Vec3& p1, const Vec3& q0, co
 }
 
 /// Closest points of the segments p0 p1 and q0 q1, p being the longer one.
-///
-/// - Split d2 = q1 - q0 and r = q0 - p0 into parts along and across d1 = p1 - p0. Across, the pair of
-///   lines is one point and one line: t = -(r' . d2') / (d2' . d2') is the nearest point of q's line to
-///   p's line. The textbook denominator |d1|^2 |d2|^2 - (d1 . d2)^2 is the same number but loses the angle
-///   below 1e-8; this form places the points with an error of a few roundings of the segments' length for
-///   every angle.
-/// - Clamp t, project on p, clamp, project back (C. Ericson, "Real-Time Collision Detection", 2005, section
-///   5.1.9): each step is a feasible pair and the last is the minimum of a convex function over the box.
+/// - Split d2 = q1 - q0 and r = q0 - p0 into parts along and across d1 = p1 - p0. Across, the lines
+///   are a point and a line: t = -(r' . d2') / (d2' . d2') is the point of q's line nearest to p's.
+///   The textbook denominator |d1|^2 |d2|^2 - (d1 . d2)^2 is the same number but loses the angle
+///   below 1e-8; this form errs by a few roundings of the segments' length at any angle.
+/// - Clamp t, project on p, clamp, project back (C. Ericson, "Real-Time Collision Detection", 2005,
+///   section 5.1.9): each step is a feasible pair, the last a convex function's minimum on the box.
 inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1,
                                      double squared_length_p, double squared_length_q, double tolerance,
                                      PointsOnSegments& result) {
@@ -145,7 +142,7 @@ inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3&
   const Vec3 r = q0 - p0;
   const double squared_tolerance = tolerance * tolerance;
   if (!(squared_length_p > squared_tolerance)) {
-    // Both are points up to rounding; their lengths are nothing to divide by.
+    // Both are points up to rounding; their lengths cannot be divided by.
     pair_from_end_of_p(p0, SegmentFeature::V0, q0, q1, tolerance, result);
     PointsOnSegments other;
     pair_from_end_of_p(p1, SegmentFeature::V1, q0, q1, tolerance, other);
@@ -186,8 +183,8 @@ inline void ordered_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3&
   result.feature_p = result.feature_q = SegmentFeature::EDGE;
 }
 
-/// Two segments in any order of length. The longer one takes the role p of the result, ties are broken by
-/// coordinates, so the order of the arguments does not matter.
+/// Two segments in any order of length. The longer one is p of the result and coordinates break
+/// ties, so the order of the arguments does not matter.
 /// @returns true when the first segment has the role p
 inline bool segment_pair(const Vec3& a0, const Vec3& a1, double squared_length_a, const Vec3& b0,
                          const Vec3& b1, double squared_length_b, double tolerance,
@@ -198,7 +195,7 @@ inline bool segment_pair(const Vec3& a0, const Vec3& a1, double squared_length_a
   if (squared_length_a == squared_length_b) {
     a_first = a0 != b0 ? lexicographic_less(a0, b0) : lexicographic_less(a1, b1);
   }
-  // Selected by address: which edge is longer is a coin toss that no branch should depend on.
+  // Selected by address: which edge is longer is random, so no branch should depend on it.
   ordered_segment_distance(a_first ? a0 : b0, a_first ? a1 : b1, a_first ? b0 : a0, a_first ? b1 : a1,
                            a_first ? squared_length_a : squared_length_b,
                            a_first ? squared_length_b : squared_length_a, tolerance, result);

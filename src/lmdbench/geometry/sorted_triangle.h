@@ -11,19 +11,18 @@
 
 namespace lmdbench::kernel {
 
-/// Ends of edge k among sorted corners: the lower one first, so an edge has one
-/// direction for all its triangles.
+/// Ends of edge k among sorted corners, lower one first: an edge has one direction in all its
+/// triangles.
 inline constexpr std::array<std::array<int, 2>, 3> EDGE_ENDS{{{0, 1}, {1, 2}, {0, 2}}};
 
-/// Corners in lexicographic order with the way back to the caller's numbering: the kernels work on these, so
-/// that a permutation of the corners cannot change a bit of the result.
+/// Corners in lexicographic order with the way back to the caller's numbering. The kernels work on
+/// these, so that a permutation of the corners cannot change a bit of the result.
 struct SortedTriangle {
   Triangle corners;
   std::array<int, 3> original;
 
   explicit SortedTriangle(const Triangle& triangle) {
-    // The rank of a corner is the number of corners below it, equal ones counted by index; no
-    // branches, as in lexicographic_less.
+    // The rank of a corner is the number of corners below it, equal ones by index; no branches.
     const int below_10 = lexicographic_less(triangle[1], triangle[0]);
     const int below_20 = lexicographic_less(triangle[2], triangle[0]);
     const int below_21 = lexicographic_less(triangle[2], triangle[1]);
@@ -36,7 +35,7 @@ struct SortedTriangle {
   TriangleFeature vertex(int corner) const { return vertex_feature(original[corner]); }
 
   TriangleFeature edge(int k) const {
-    // Edge j of a triangle joins corners j and j + 1, so the corner it does not touch is j + 2.
+    // Edge j joins corners j and j + 1, so the corner opposite to it is j + 2.
     const int opposite = 3 - EDGE_ENDS[k][0] - EDGE_ENDS[k][1];
     return edge_feature((original[opposite] + 1) % 3);
   }

@@ -13,12 +13,12 @@
 namespace lmdbench {
 namespace {
 
-// Steps of bounding_sphere (farthest-point pivoting, the scheme of B. Gaertner, "Fast and robust smallest
+// Steps of bounding_sphere (farthest-point pivoting, B. Gaertner, "Fast and robust smallest
 // enclosing balls", ESA 1999, with a brute-force solver for the at most five points of a step):
 // - keep a support set of at most four points and its smallest sphere;
 // - find the point farthest from the centre; stop when it is inside up to SPHERE_SHRINK_TOLERANCE;
 // - otherwise the smallest sphere of support + that point replaces both; the radius grows strictly.
-// A last pass sets the radius to the largest distance, so that rounding can never leave a point outside.
+// A last pass sets the radius to the largest distance, so rounding leaves no point outside.
 
 /// A point farther out than this part of the radius is outside; the slack keeps
 /// rounding from cycling the pivots.
@@ -33,8 +33,8 @@ struct Support {
   int size = 0;
 };
 
-/// Sphere through the first N + 1 of `points` with its centre in their affine hull; false where they are affinely
-/// dependent.
+/// Sphere through the first N + 1 of `points`, with its centre in their affine hull; false where
+/// they are affinely dependent.
 template <int N>
 bool circumsphere(const std::array<Vec3, 4>& points, Sphere& sphere) {
   // centre - origin = sum of l_i e_i with 2 e_j . (centre - origin) = e_j . e_j for
@@ -78,8 +78,8 @@ bool contains_all(const Sphere& sphere, const Support& support) {
   return true;
 }
 
-/// Replaces the support by the subset that carries its smallest sphere; false where rounding hides that subset. The point
-/// that came last was outside the sphere of the others, hence on the boundary of the new one: it is in every subset tried.
+/// Replaces the support by the subset that carries its smallest sphere; false where rounding hides
+/// it. All subsets tried hold the last point: outside the others' sphere, it is on the new one.
 bool smallest_sphere_of_support(Support& support, Sphere& sphere) {
   Sphere best;
   best.radius = std::numeric_limits<double>::infinity();

@@ -14,21 +14,21 @@
 
 namespace lmdbench {
 
-/// A length below this part of the largest coordinate is rounding: points that close coincide, and edges or
-/// faces that drift apart by less are parallel. A corner that went through a rigid transform carries about
-/// four roundings per coordinate and an edge two such corners, so sixteen epsilons cover what a common
-/// rotation does to two parallel edges; the error of a distance from taking them as parallel stays under
-/// 1e-14 of the coordinates.
+/// A length below this part of the largest coordinate is rounding: points that close coincide, and
+/// edges or faces that drift apart by less are parallel. A corner that went through a rigid
+/// transform carries about four roundings per coordinate and an edge has two such corners, so
+/// sixteen epsilons cover the effect of a common rotation on two parallel edges. Taking them as
+/// parallel changes a distance by less than 1e-14 of the coordinates.
 inline constexpr double COINCIDENCE_TOLERANCE = 16.0 * std::numeric_limits<double>::epsilon();
 
-/// Coordinates above this are refused where files are read: volumes, squared areas and the exact tests' products
+/// Readers of files refuse larger coordinates: volumes, squared areas and the exact tests' products
 /// of up to seven lengths must stay within double precision. Single precision ends at 3.4e38.
 inline constexpr double LARGEST_COORDINATE = 1e40;
 
-/// Meshes whose bounding box's diagonal is smaller are refused for the same reason: such products would vanish.
+/// Readers refuse meshes with a smaller diagonal of the bounding box: such products would vanish.
 inline constexpr double SMALLEST_DIAGONAL = 1e-40;
 
-/// Largest absolute coordinate; a coordinate that is not a number is passed over, see all_finite.
+/// Largest absolute coordinate; a coordinate that is not a number does not count, see all_finite.
 inline double largest_coordinate(std::span<const Vec3> points) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double), "the coordinates of several points lie side by side");
   using Two = Eigen::Array2d;
@@ -51,8 +51,8 @@ inline bool all_finite(std::span<const Vec3> points) {
   return std::all_of(points.begin(), points.end(), [](const Vec3& point) { return point.allFinite(); });
 }
 
-/// COINCIDENCE_TOLERANCE times the coordinate magnitude rounded down to a power of two, so that queries which
-/// share features but not all corners nearly always decide by the same length.
+/// COINCIDENCE_TOLERANCE times the coordinate magnitude rounded down to a power of two, so that
+/// calls which share features but not all corners nearly always decide by the same length.
 /// @param magnitude not negative; a denormal one gives 0
 inline double coincidence_length(double magnitude) {
   LMDBENCH_EXPECTS(!(magnitude < 0.0), "a coordinate in place of its magnitude");
@@ -61,8 +61,8 @@ inline double coincidence_length(double magnitude) {
          std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) & EXPONENT_BITS);
 }
 
-/// Lexicographic order of coordinates: the canonical order of corners. Without branches, because the outcome
-/// is a coin toss for the branch predictor.
+/// Lexicographic order of coordinates: the canonical order of corners. Without branches, because
+/// the branch predictor could only guess the outcome.
 inline bool lexicographic_less(const Vec3& a, const Vec3& b) {
   const bool less_0 = a[0] < b[0], equal_0 = a[0] == b[0];
   const bool less_1 = a[1] < b[1], equal_1 = a[1] == b[1];

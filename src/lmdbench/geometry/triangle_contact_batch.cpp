@@ -33,7 +33,7 @@ using kernel::LaneCrossing;
 using kernel::LaneGap;
 using kernel::MAX_LANES;
 
-/// Calls visit(begin, count, block) for all pairs, MAX_LANES at a time; the last pair fills lanes that have none.
+/// Calls visit(begin, count, block) for all pairs, MAX_LANES at a time; spare lanes get the last.
 template <class Visit>
 void for_each_block(std::span<const Triangle> a, std::span<const Triangle> b, Visit visit) {
   LaneBlock block;

@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <cmath>
 
-// A guess of the features proves nearly every pair of disjoint triangles in general position; contact,
-// parallel features and degenerate triangles are left to the examination of all candidates. Both give the
+// A guess of the features proves nearly every pair of disjoint triangles in general position.
+// Contact, parallel features and degenerate triangles are left to all candidates. Both give the
 // same bits where both answer.
 
 namespace lmdbench {
 namespace {
 
-/// Products of four coordinates must neither overflow nor lose digits to underflow; outside this range of the
-/// largest coordinate the triangles are scaled by a power of two, which is exact.
+/// Products of four coordinates must neither overflow nor lose digits to underflow. Outside this
+/// range of the largest coordinate, triangles are scaled by a power of two, which is exact.
 constexpr double SMALLEST_MAGNITUDE = 0x1p-100;
 constexpr double LARGEST_MAGNITUDE = 0x1p+100;
 
@@ -28,9 +28,9 @@ Triangle scaled(const Triangle& triangle, int exponent) {
   return result;
 }
 
-/// Takes a point and its feature from the scaled triangle back to the caller's. A corner is copied, because
-/// scaling back would round denormal coordinates; of corners that scaling made equal it is the lowest,
-/// whatever their order.
+/// Takes a point and its feature from the scaled triangle back to the caller's. A corner is copied,
+/// because scaling back would round denormal coordinates; of corners that scaling made equal it is
+/// the lowest, whatever their order.
 void scale_back(const Triangle& triangle, const Triangle& scaled_triangle, int exponent, Vec3& point,
                 TriangleFeature& feature) {
   if (!is_vertex(feature)) {

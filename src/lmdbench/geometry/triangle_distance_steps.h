@@ -37,29 +37,29 @@ struct Carriers {
   }
 };
 
-/// Which parts of two triangles seem to carry the nearest pair.
+/// The features of two triangles that seem to carry the nearest pair.
 struct FeatureGuess {
   Carriers on_a, on_b;
-  bool exists = false;  ///< False where an edge clearly pierces a face, or the processor has no vectors.
+  bool exists = false;  ///< False: an edge clearly pierces a face, or the CPU has no vectors.
 };
 
-/// The nearest of 9 edge pairs and 6 corner-face pairs, in single precision and textbook formulas, four
-/// candidates at a time. Right for nearly every pair in general position; whoever asks must prove it, because
-/// rounding may decide where candidates are nearly as near, and nothing at all is promised for coordinates
-/// that are not finite.
+/// The nearest of 9 edge pairs and 6 corner-face pairs, by textbook formulas in single precision,
+/// four candidates at a time. Right for nearly every pair in general position. The caller must
+/// prove it: rounding may decide between candidates that are nearly as near, and nothing is
+/// promised for coordinates that are not finite.
 /// @param scale brings the largest coordinate near 1
 FeatureGuess guess_features(const Triangle& a, const Triangle& b, double scale);
 
-/// Nearest pair of two triangles where it is unique by a clear margin, found from a guess of the
-/// features that carry it and proved by the signs of a few dot products. What it gives is bit for bit what
-/// the examination of all candidates gives.
-/// @param tolerance coincidence_length of the largest coordinate, which is in [2^-100, 2^100] or not finite
-/// @returns false, with `result` untouched, where nothing was proved: contact, parallel features, exact ties,
-///   degenerate triangles, coordinates that are not finite
+/// Nearest pair of two triangles where it is unique by a clear margin: found from a guess of its
+/// features, proved by the signs of a few dot products, and bit for bit the result of
+/// distance_by_all_candidates.
+/// @param tolerance coincidence_length of the largest coordinate, in [2^-100, 2^100] or not finite
+/// @returns false, with `result` untouched, where it proves nothing: contact, parallel features,
+///   exact ties, degenerate triangles, coordinates that are not finite
 bool prove_by_features(const Triangle& a, const Triangle& b, double tolerance, TrianglePairDistance& result);
 
-/// triangle_distance by examining every pair of features: for every finite input, and six
-/// times slower than prove_by_features.
+/// triangle_distance by all pairs of features: for every finite input, six times slower than
+/// prove_by_features.
 /// @param tolerance coincidence_length of the largest coordinate, which is 0 or in [2^-100, 2^100]
 TrianglePairDistance distance_by_all_candidates(const Triangle& a, const Triangle& b, double tolerance);
 

@@ -6,8 +6,8 @@
 
 namespace lmdbench {
 
-/// The part of a triangle on which a closest point lies: its own enum, so that the local tracker can pick the
-/// neighbourhood from it (paper, Fig. 5). Edge k joins corner k and corner (k + 1) % 3.
+/// The feature of a triangle on which a closest point lies: local tracking picks the neighbourhood
+/// from it (paper, Fig. 5). Edge k joins corner k and corner (k + 1) % 3.
 enum class TriangleFeature : std::uint8_t { V0, V1, V2, E0, E1, E2, FACE };
 
 constexpr bool is_vertex(TriangleFeature feature) {

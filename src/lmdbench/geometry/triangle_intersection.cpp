@@ -12,15 +12,15 @@
 #include <array>
 #include <cmath>
 
-// Two closed triangles share a point exactly when an edge of one shares a point with the other (an edge may
-// lie in the other's plane, and a triangle without area is an edge or a point). Every question below is a
-// sign of orientation_2d or orientation_3d, so the answers are exact and cannot contradict each other.
+// Two closed triangles share a point exactly when an edge of one shares a point with the other (an
+// edge may lie in the other's plane; a triangle without area is an edge or a point). Every answer
+// below is a sign of orientation_2d or orientation_3d: exact, and free of contradictions.
 namespace lmdbench {
 namespace {
 
 constexpr int COLLINEAR = -1;
 
-/// A coordinate axis along which abc projects to a triangle with area; COLLINEAR when there is none.
+/// A coordinate axis along which abc projects to a triangle with area; COLLINEAR without one.
 int projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = (b - a).cross(c - a);
   int best = 0;
@@ -80,15 +80,14 @@ bool segment_meets_triangle(const Segment& p, const Triangle& t, int axis) {
   }
   if (side_0 == 0) return in_triangle_2d(p[0], t, axis);
   if (side_1 == 0) return in_triangle_2d(p[1], t, axis);
-  // The line pierces the plane at one point, which is inside when it turns the
-  // same way round all three edges.
+  // The line meets the plane in one point, which is inside when all three edges turn the same way.
   const int s0 = orientation_3d(p[0], p[1], t[0], t[1]);
   const int s1 = orientation_3d(p[0], p[1], t[1], t[2]);
   const int s2 = orientation_3d(p[0], p[1], t[2], t[0]);
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
 }
 
-/// The segment that a triangle without area is.
+/// A triangle without area as a segment.
 Segment collinear_hull(const Triangle& t) {
   const auto [low, high] = std::minmax_element(t.begin(), t.end(), lexicographic_less);
   return {*low, *high};
@@ -98,7 +97,7 @@ std::array<Segment, 3> edges(const Triangle& t) {
   return {Segment{t[0], t[1]}, Segment{t[1], t[2]}, Segment{t[2], t[0]}};
 }
 
-/// On which side of the other triangle's plane the corners of each triangle are; exact.
+/// The sides of the other triangle's plane on which each triangle's corners are; exact.
 struct Sides {
   std::array<int, 3> a{}, b{};
 
@@ -110,7 +109,7 @@ struct Sides {
   static bool apart(const std::array<int, 3>& side) {
     return side[0] != 0 && side[0] == side[1] && side[1] == side[2];
   }
-  /// Some plane of the two has the other triangle strictly on one side.
+  /// One plane has the other triangle strictly on one side.
   bool planes_separate() const { return apart(b) || apart(a); }
   /// No corner lies in the other's plane.
   bool is_generic() const { return a[0] * a[1] * a[2] * b[0] * b[1] * b[2] != 0; }
@@ -120,10 +119,10 @@ int lone_corner(const std::array<int, 3>& side) {
   return side[1] == side[2] ? 0 : side[2] == side[0] ? 1 : 2;
 }
 
-/// Each triangle cuts the line that the two planes share in a segment; do the segments overlap? p is the
-/// corner that is alone on its side, and both triangles are turned so that p of each is above the other's
-/// plane; then two orientations compare the ends of the segments (P. Guigue and O. Devillers, "Fast and
-/// robust triangle-triangle overlap test using orientation predicates", 2003).
+/// Each triangle cuts the line that the planes share in a segment; do the segments overlap? p is
+/// the corner alone on its side, and both triangles are turned so that each p is above the other's
+/// plane. Then two orientations compare the ends of the segments (P. Guigue and O. Devillers, "Fast
+/// and robust triangle-triangle overlap test using orientation predicates", 2003).
 /// @pre sides.is_generic() and not sides.planes_separate()
 bool segments_on_common_line_overlap(const Triangle& a, const Triangle& b, const Sides& sides) {
   const int lone_a = lone_corner(sides.a);
@@ -194,7 +193,7 @@ int cross_sign(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, int a
       .sign();
 }
 
-/// Side of the plane of t on which p is, after p has been displaced by `step` times the infinitely small vector.
+/// Side of t's plane on which p is once displaced by `step` times the infinitely small vector.
 int displaced_side(const Triangle& t, const Vec3& p, int step) {
   const int side = orientation_3d(t[0], t[1], t[2], p);
   if (side != 0) return side;
@@ -206,7 +205,7 @@ int displaced_side(const Triangle& t, const Vec3& p, int step) {
   return 0;
 }
 
-/// orientation_3d(p, q, u, v) after p and q have been displaced; 0 only where pq and uv are parallel.
+/// orientation_3d(p, q, u, v) once p and q are displaced; 0 only where pq and uv are parallel.
 int displaced_turn(const Vec3& p, const Vec3& q, const Vec3& u, const Vec3& v, int step) {
   const int turn = orientation_3d(p, q, u, v);
   if (turn != 0) return turn;
@@ -234,12 +233,12 @@ Vec3 piercing_point(const Segment& segment, const Triangle& triangle) {
   if (!face.has_face) return segment[0];
   const Vec3 normal = face.e.cross(face.h);
   const double h0 = normal.dot(segment[0] - face.a), h1 = normal.dot(segment[1] - face.a);
-  // From the nearer end, where the division is the more accurate.
+  // From the nearer end, where the division is more accurate.
   const bool from_0 = std::abs(h0) <= std::abs(h1);
   const double near = from_0 ? h0 : h1, far = from_0 ? h1 : h0;
   const Vec3& begin = segment[from_0 ? 0 : 1];
   const Vec3& end = segment[from_0 ? 1 : 0];
-  // Heights of rounding, which the exact signs tell apart: anywhere on the segment is on the plane.
+  // Heights are rounding, though exact signs differ: any point of the segment is on the plane.
   if (!(near * far < 0.0)) return begin;
   return begin + near / (near - far) * (end - begin);
 }

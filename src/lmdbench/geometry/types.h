@@ -14,14 +14,14 @@ namespace lmdbench {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
-/// Corners of a triangle in counter-clockwise order seen from the outer side. May be degenerate: a triangle
-/// with collinear corners is treated as a segment, one with three equal corners as a point.
+/// Corners in counter-clockwise order seen from the outer side. A degenerate triangle is a segment
+/// (collinear corners) or a point (equal corners).
 using Triangle = std::array<Vec3, 3>;
 
-/// How far the squared length of what is called a unit vector may be from 1: above what a chain of products of rotations leaves.
+/// Most difference from 1 of a unit vector's squared length: above that of a chain of rotations.
 inline constexpr double UNIT_TOLERANCE = 1e-6;
 
-/// What contracts ask of directions.
+/// For contracts about directions.
 inline bool is_unit(const Vec3& v) {
   return std::abs(v.squaredNorm() - 1.0) <= UNIT_TOLERANCE;
 }

@@ -29,7 +29,7 @@ std::shared_ptr<const Body> prepare(TriangleMesh mesh, const std::string& planar
   return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
 }
 
-/// What reading a file makes sure of.
+/// The checks that reading a file makes.
 void check_mesh_in_memory(const TriangleMesh& mesh, const std::string& name) {
   const auto count = static_cast<std::int64_t>(mesh.vertices.size());
   if (mesh.triangles.empty())
@@ -52,7 +52,7 @@ void refuse_bad_pose(const Pose& pose, const std::string& place) {
   const double length = pose.rotation.norm();
   const bool rigid = pose.translation.allFinite() &&
                      pose.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE &&
-                     std::abs(length - 1.0) <= QUATERNION_LENGTH_TOLERANCE;  // false for NaN, too
+                     std::abs(length - 1.0) <= QUATERNION_LENGTH_TOLERANCE;  // also false for NaN
   if (!rigid)
     throw UsageError(
         "", place, "is no rigid transform of finite size",
@@ -71,7 +71,7 @@ Scene scene_of(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixe
 }
 
 nlohmann::json options_of(const std::string& method, const std::string& text) {
-  const MethodDescription& description = method_description(method);  // a misspelt name first
+  const MethodDescription& description = method_description(method);  // reports a misspelt name
   nlohmann::json options = nlohmann::json::parse(text, nullptr, false);
   if (!options.is_object())
     throw UsageError("", "options", fmt::format("'{}' is no JSON object", text),

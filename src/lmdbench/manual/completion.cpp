@@ -11,7 +11,7 @@ namespace {
 constexpr const char* LICENCE =
     "# SPDX-FileCopyrightText: The lmdbench authors\n# SPDX-License-Identifier: BSD-3-Clause\n";
 
-/// Behind a command the program's own options are understood as well.
+/// A command's options, then the program's own, which also work after the command.
 std::vector<OptionText> options_behind(const CommandText& command, const CommandText& program) {
   std::vector<OptionText> options = command.options;
   if (!command.path.empty())
@@ -20,7 +20,7 @@ std::vector<OptionText> options_behind(const CommandText& command, const Command
   return options;
 }
 
-/// Characters that zsh reads in a specification.
+/// Quotes the characters that zsh interprets in a specification.
 std::string quoted(const std::string& text) {
   std::string result;
   for (const char c : text.substr(0, text.find('\n'))) {

@@ -13,7 +13,7 @@ namespace lmdbench::manual {
 namespace {
 
 #ifdef LMDBENCH_HAS_EXPERIMENTS
-/// Places of the values that an experiment may hold, but those within lists.
+/// JSON pointers of an experiment's values, except those within lists.
 void append_places(const nlohmann::json& schema, const nlohmann::json& part, const std::string& pointer,
                    std::vector<std::string>& places) {
   if (const auto reference = part.find("$ref"); reference != part.end()) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-// lmdbench_write_manual FOLDER: writes man pages and completion of the program into FOLDER/man, FOLDER/bash and FOLDER/zsh.
+// lmdbench_write_manual FOLDER: man pages and completion in FOLDER/man, FOLDER/bash, FOLDER/zsh.
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/cli/app.h>

@@ -16,19 +16,19 @@ std::string replaced(std::string text, char from, const std::string& to) {
   return result;
 }
 
-/// Text that roff shows as it stands.
+/// Text that roff shows unchanged.
 std::string escaped(const std::string& text) {
   std::string line_begin = replaced(replaced(text, '\\', "\\e"), '-', "\\-");
   std::string result;
   for (std::size_t i = 0; i < line_begin.size(); ++i) {
     const bool begins = i == 0 || line_begin[i - 1] == '\n';
-    if (begins && (line_begin[i] == '.' || line_begin[i] == '\'')) result += "\\&";  // else a request
+    if (begins && (line_begin[i] == '.' || line_begin[i] == '\'')) result += "\\&";  // no request
     result += line_begin[i];
   }
   return result;
 }
 
-/// Lines of the text stay lines.
+/// Keeps the text's lines.
 std::string lines(const std::string& text) {
   return fmt::format("{}\n", fmt::join(
                                  [&] {
@@ -71,7 +71,7 @@ std::string option_entry(const OptionText& option) {
   return text;
 }
 
-/// Of "name:" and options below it: as it is typed in --help.
+/// For "name:" with options below it: as typed in --help.
 std::string as_typed(const std::string& text) {
   return fmt::format(".nf\n{}\n.fi\n", escaped(text));
 }

@@ -13,18 +13,18 @@ namespace lmdbench::manual {
 /// "lmdbench.1", "lmdbench-mesh-info.1"
 std::string man_page_name(const CommandText& command);
 
-/// A page of section 1 in the man macros of roff (man-pages(7)). Without a date: the same bits in every build.
+/// A page of section 1 in roff's man macros (man-pages(7)), without a date: always the same bits.
 /// @param all for the list of commands and for "see also"
 std::string man_page(const CommandText& command, const std::vector<CommandText>& all,
                      const std::string& version);
 
-/// Completion of commands, options and known values; files elsewhere. Options of the program itself are offered behind every
-/// command, too, where they are understood.
+/// Completes commands, options and known values; files elsewhere. Every command also has the
+/// program's own options, where they work.
 std::string bash_completion(const std::vector<CommandText>& commands);
 std::string zsh_completion(const std::vector<CommandText>& commands);
 
-/// What may follow an option, by its long name: methods from the registry, limits from their table, places in an
-/// experiment file (with the "=" that a value follows) and drivers from its schema.
+/// Possible values of an option, by its long name: methods from the registry, limits from their
+/// table, places in an experiment file (with the "=" before a value) and drivers from its schema.
 std::map<std::string, std::vector<std::string>> known_values();
 
 }  // namespace lmdbench::manual

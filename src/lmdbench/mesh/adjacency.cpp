@@ -41,8 +41,8 @@ CsrRows triangles_of_vertices(const TriangleMesh& mesh) {
   return {std::move(offsets), std::move(items)};
 }
 
-/// For every side the first side on the same edge. An edge is met at its smaller vertex, so every vertex has
-/// only the few sides to sort that it is the smaller end of, and vertices can be treated apart.
+/// For every side the first side on the same edge. Each vertex sorts only the sides of which it is
+/// the smaller end, so vertices are independent.
 std::vector<SideIndex> first_sides(const TriangleMesh& mesh, const CsrRows& vertex_triangles) {
   std::vector<SideIndex> first(3 * mesh.triangles.size());
   parallel_ranges(mesh.vertices.size(), VERTICES_A_TASK, [&](std::size_t begin, std::size_t end) {

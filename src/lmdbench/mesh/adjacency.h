@@ -13,14 +13,14 @@
 
 namespace lmdbench {
 
-/// The triangles of every edge. Nearly all edges have one or two, so these stand in pairs, without the
-/// offsets that rows of any length need; the rows of the others stand apart.
+/// The triangles of every edge. Nearly all edges have one or two, kept as pairs without the offsets
+/// that rows of any length need; longer rows are kept apart.
 class EdgeTriangles {
  public:
   EdgeTriangles() = default;
   explicit EdgeTriangles(std::size_t edge_count) : pairs_(edge_count, {NONE, NONE}) {}
 
-  /// Adds a triangle to an edge; one that was added to it last is not added again.
+  /// Adds a triangle to an edge, unless it was the last one added there.
   void add(std::int32_t edge, std::int32_t triangle) {
     const auto present = (*this)[edge];
     if (!present.empty() && present.back() == triangle) return;
@@ -54,15 +54,15 @@ class EdgeTriangles {
 
  private:
   static constexpr std::int32_t NONE = -1;       ///< No triangle.
-  static constexpr std::int32_t FIRST_ROW = -2;  ///< As second entry: the first of rows_; -3 the second, ...
+  static constexpr std::int32_t FIRST_ROW = -2;  ///< As second entry: rows_[0]; -3: rows_[1], ...
 
   std::vector<std::array<std::int32_t, 2>> pairs_;
   std::vector<std::vector<std::int32_t>> rows_;
 };
 
-/// Who touches whom in a mesh. Non-manifold edges keep all their triangles.
+/// Neighbourhood of a mesh. Non-manifold edges keep all their triangles.
 struct Adjacency {
-  std::vector<std::array<std::int32_t, 2>> edges;  ///< #E by 2, vertex indices, the smaller one first.
+  std::vector<std::array<std::int32_t, 2>> edges;  ///< #E by 2, vertex indices, smaller one first.
   std::vector<std::array<std::int32_t, 3>>
       triangle_edges;            ///< #T by 3; side k joins corners k and (k + 1) % 3.
   EdgeTriangles edge_triangles;  ///< #E lists of triangles, ascending.
@@ -73,8 +73,8 @@ struct Adjacency {
   std::size_t bytes() const;
 };
 
-/// Edges are numbered in the order of their first triangle side, so the numbering depends on the mesh alone.
-/// A triangle that names a vertex twice has a side {v, v} and stands once in each row that it belongs to.
+/// Edges are numbered in the order of their first triangle side: numbers depend on the mesh alone.
+/// A triangle that names a vertex twice has a side {v, v} and is once in each of its rows.
 /// @pre every index is within the vertex array (import checks it)
 Adjacency build_adjacency(const TriangleMesh& mesh);
 

@@ -10,15 +10,15 @@ namespace lmdbench {
 
 namespace {
 
-/// Boxes cover so many cells on average at the most: those of long triangles round one vertex would each cover a good part of all,
-/// and then the cells are larger.
+/// Most cells of a box on average. Boxes of long triangles round one vertex would each cover a good
+/// part of all cells; then the cells are larger.
 constexpr double MOST_CELLS_A_BOX = 16.0;
 
 }  // namespace
 
 BoxGrid::BoxGrid(std::vector<Box2> boxes) : boxes_(std::move(boxes)) {
   if (boxes_.empty()) {
-    // One empty cell, for a region too narrow to have pieces.
+    // One empty cell, for a region without boxes.
     bounds_.add(Vec2::Zero());
     cells_ = CsrRows({0, 0}, {});
     return;

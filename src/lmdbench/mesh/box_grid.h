@@ -14,7 +14,7 @@
 
 namespace lmdbench {
 
-/// Uniform grid over boxes of a plane, about one a cell: lists those near a box or near a segment.
+/// Uniform grid over boxes of a plane, about one box a cell: lists those near a box or a segment.
 class BoxGrid {
  public:
   BoxGrid() : BoxGrid(std::vector<Box2>()) {}
@@ -24,7 +24,7 @@ class BoxGrid {
   const Vec2& high() const { return bounds_.high; }
   std::size_t bytes() const { return boxes_.capacity() * sizeof(Box2) + cells_.bytes(); }
 
-  /// Calls visit(index) once for every box that comes within `reach` of a box, until it returns false.
+  /// Calls visit(index) once for every box within `reach` of a box, until it returns false.
   /// @return whether visit never returned false
   template <class Visit>
   bool for_each_near(const Box2& box, double reach, Visit&& visit) const {
@@ -36,7 +36,7 @@ class BoxGrid {
         for (const std::int32_t index : cells_[y * columns_ + x]) {
           const Box2& own = boxes_[static_cast<std::size_t>(index)];
           if (!own.comes_within(box, reach)) continue;
-          // Of the cells that it shares with the query, the first.
+          // Visited in the first cell that it shares with the given box.
           const auto [first_x, first_y] = cell_of(own.low);
           if (x != std::max(x0, first_x) || y != std::max(y0, first_y)) continue;
           if (!visit(index)) return false;
@@ -44,8 +44,8 @@ class BoxGrid {
     return true;
   }
 
-  /// Calls visit(index) for every box within `reach` of a segment, row by row, only in the cells that it passes; for some more,
-  /// and for some more than once.
+  /// Calls visit(index) for every box within `reach` of a segment, only in the cells that it
+  /// passes, row by row; also for some farther boxes, and for some more than once.
   template <class Visit>
   void for_each_near(const Vec2& a, const Vec2& b, double reach, Visit&& visit) const {
     LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
@@ -56,7 +56,7 @@ class BoxGrid {
     const int last = cell_of(all.high + Vec2::Constant(reach)).second;
     const double rise = b[1] - a[1];
     for (int y = first; y <= last; ++y) {
-      // The part of the segment in this row, with what is below the first row and above the last one.
+      // The part of the segment in this row; the first and last rows extend outwards without end.
       Box2 part = all;
       const double bottom = bounds_.low[1] + y / cells_per_metre_[1] - reach;
       const double top = bounds_.low[1] + (y + 1) / cells_per_metre_[1] + reach;

@@ -14,7 +14,7 @@
 
 namespace lmdbench {
 
-/// Lists of indices as compressed sparse rows (CSR): row i is items[offsets[i]] .. items[offsets[i + 1]).
+/// Lists of indices as compressed sparse rows: row i is items[offsets[i]] .. items[offsets[i + 1]).
 class CsrRows {
  public:
   CsrRows() = default;
@@ -27,7 +27,7 @@ class CsrRows {
                      "offsets that were not summed up, or are one short");
   }
 
-  /// Groups `pairs` of (row, item) into `row_count` rows; within a row items keep the order of `pairs`.
+  /// Groups `pairs` of (row, item) into `row_count` rows; items of a row keep the order of `pairs`.
   CsrRows(std::int32_t row_count, std::span<const std::pair<std::int32_t, std::int32_t>> pairs)
       : offsets_(static_cast<std::size_t>(row_count) + 1, 0), items_(pairs.size()) {
     for (const auto& [row, item] : pairs) ++offsets_[static_cast<std::size_t>(row) + 1];

@@ -12,7 +12,7 @@ namespace lmdbench {
 
 enum class FeatureKind : std::uint8_t { VERTEX, EDGE, FACE };
 
-/// Stable name of a vertex, edge or face of a mesh: not "the triangle that happened to be visited".
+/// Stable name of a vertex, edge or face of a mesh, whichever triangle was visited.
 /// `index` counts TriangleMesh::vertices, Adjacency::edges or TriangleMesh::triangles.
 struct FeatureId {
   FeatureKind kind = FeatureKind::FACE;

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-/// What one unit of a mesh file's coordinates is. Most mesh files do not say; this program counts in metres.
+/// Unit of a mesh file's coordinates. Most files do not say; this program uses metres.
 namespace lmdbench {
 
 struct LengthUnit {
@@ -30,12 +30,12 @@ double metres_of_unit(const std::string& text, const std::string& place);
 /// @throws UsageError as above
 std::pair<double, double> metres_of_units(const std::string& text, const std::string& place);
 
-/// Metres of a unit of a format that has one by its standard: glTF 2.0 is in metres. Nothing for OFF, OBJ, PLY and STL, nor for names of the
-/// manifest.
+/// Metres of the unit that a format's standard sets (glTF 2.0: metres). Nothing for OFF, OBJ, PLY
+/// and STL, nor for names of the manifest.
 std::optional<double> metres_of_format(const std::filesystem::path& file);
 
-/// Coordinates that span more than this are taken for millimetres where nobody says what they are: a part of ten metres does not
-/// hang on a haptic device.
+/// Coordinates with a larger span count as millimetres where nobody says their unit: nobody holds
+/// ten metres on a haptic device.
 inline constexpr double LARGEST_PLAUSIBLE_DIAGONAL = 10.0;
 
 }  // namespace lmdbench

@@ -18,7 +18,7 @@ namespace {
 
 using Corners = std::array<std::int32_t, 3>;
 
-/// Triangles that hang together over edges of two triangles.
+/// Triangles that are connected over edges of two triangles.
 struct Piece {
   std::vector<std::int32_t> triangles;
   bool closed = true;
@@ -35,7 +35,7 @@ void turn(Corners& corners) {
   std::swap(corners[1], corners[2]);
 }
 
-/// Two triangles agree where they run along their common edge in opposite directions.
+/// Whether two triangles run along their common edge in opposite directions.
 bool agree(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& edge, std::int32_t a,
            std::int32_t b) {
   const bool first = runs_along(mesh.triangles[static_cast<std::size_t>(a)], edge[0], edge[1]);
@@ -43,7 +43,7 @@ bool agree(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& edge, st
   return first != second;
 }
 
-/// Makes the triangles of every piece agree, as far as they can.
+/// Makes the triangles of every piece agree, as far as possible.
 std::vector<Piece> agreeing_pieces(TriangleMesh& mesh, const Adjacency& adjacency) {
   std::vector<Piece> pieces;
   std::vector<bool> seen(mesh.triangles.size(), false);

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// Which side of a mesh's triangles is outside: as the file says, or found. The outer side decides what an LMD is, so on a solid that
-/// is inside out there is none.
+/// The outer side of a mesh's triangles: as in the file, or found. It decides what an LMD is: a
+/// solid that is inside out has none.
 namespace lmdbench {
 
 enum class OrientationChoice : std::uint8_t {
@@ -24,11 +24,11 @@ std::string_view to_string(OrientationChoice choice);
 OrientationChoice parse_orientation(const std::string& text, const std::string& file,
                                     const std::string& place);
 
-/// What `orient_outward` did.
+/// Result of `orient_outward`.
 struct OrientationReport {
   OrientationChoice choice = OrientationChoice::KEEP;
   std::int64_t turned_triangles = 0;
-  std::int64_t pieces = 0;  ///< Groups of triangles that hang together over manifold edges.
+  std::int64_t pieces = 0;  ///< Groups of triangles that are connected over manifold edges.
   std::int64_t pieces_undecided =
       0;  ///< Open ones of which no side is outside; left as most of their triangles lie.
   std::int64_t disagreements =
@@ -36,16 +36,15 @@ struct OrientationReport {
 };
 
 /// Turns triangles until every piece of the surface has one outer side, away from the solid.
-///  1. Triangles that share an edge with one other are made to agree; of the two ways that leaves, the one that turns fewer is taken
-///     first.
-///  2. A closed piece is turned so that it encloses a positive volume, or a negative one where an odd number of other closed pieces
-///     enclose it: a cavity's outer side is its inside.
-///  3. An open piece is turned where the cone from its centroid over it has a clearly negative volume (OPEN_VOLUME); where it is
-///     smaller, as of a sheet, nobody can tell, and the report counts it.
-/// Triangles' order and first corners stay.
+///  1. Triangles that share an edge with one other are made to agree, in the way that turns fewer.
+///  2. A closed piece is turned to enclose a positive volume; a negative one where an odd number of
+///     other closed pieces enclose it, because a cavity's outer side is its inside.
+///  3. An open piece is turned where the cone from its centroid over it has a clearly negative
+///     volume (OPEN_VOLUME). A smaller one, as of a sheet, decides nothing; the report counts it.
+/// The order of triangles and their first corners stay.
 OrientationReport orient_outward(TriangleMesh& mesh);
 
-/// Volume over the 3/2 power of the area (a ball has 0.094) from which on an open piece has an outer side.
+/// Least volume over the 3/2 power of the area (a ball: 0.094) of an open piece with an outer side.
 inline constexpr double OPEN_VOLUME = 0.005;
 
 /// A clause for people.

@@ -46,7 +46,7 @@ TriangleMesh placed(TriangleMesh mesh, const Placement& placement) {
   if (placement.diagonal && !(std::isfinite(factor) && factor > 0.0))
     throw InputError("", "", "the mesh has no extent and cannot be scaled",
                      "give a mesh with at least one triangle of some size");
-  // Where neither moves nor scales, the coordinates keep their bits all the same: less 0, times 1.
+  // Without centre and scale the coordinates keep their bits: less 0, times 1.
   const Vec3 origin = placement.centres() ? bounding_box_centre(mesh) : Vec3::Zero();
   for (Vec3& vertex : mesh.vertices) vertex = factor * (vertex - origin);
   mesh.planar_tolerance *= factor;

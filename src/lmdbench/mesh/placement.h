@@ -12,14 +12,14 @@
 
 namespace lmdbench {
 
-/// Refuses a mesh whose coordinates' products overflow or vanish in double precision (`LARGEST_COORDINATE`,
-/// `SMALLEST_DIAGONAL`). A mesh without any extent is left to `check_mesh` and to scaling.
+/// Refuses a mesh whose products of coordinates overflow or vanish in double precision
+/// (`LARGEST_COORDINATE`, `SMALLEST_DIAGONAL`). `check_mesh` and scaling see to one without extent.
 /// @param name  of the mesh or file, for the message
 /// @throws InputError
 void refuse_extreme_size(const TriangleMesh& mesh, const std::string& name);
 
-/// How experiments and paths place a mesh in its frame. Every reader of a path must place its meshes with
-/// `placed`, or the path's poses do not fit.
+/// Place of a mesh of an experiment or path in its frame. Every reader of a path must place its
+/// meshes with `placed`, or the path's poses do not fit.
 struct Placement {
   std::optional<double> diagonal = std::nullopt;  ///< Of the bounding box after scaling [m].
   std::optional<double> scale =
@@ -42,16 +42,15 @@ Placement read_placement(const nlohmann::json& entry);
 /// Adds the keys that `read_placement` reads.
 void write_placement(const Placement& placement, nlohmann::ordered_json& entry);
 
-/// The mesh at its place: moved until the centre of its axis-aligned bounding box is the origin of its frame
-/// where the placement centres, then scaled about the origin.
-/// @throws InputError when the mesh has no extent for a diagonal, or gets coordinates that products of lengths
-///         do not bear (`refuse_extreme_size`)
+/// The mesh at its place: moved, where the placement centres, until the centre of its axis-aligned
+/// bounding box is the origin of its frame, then scaled about the origin.
+/// @throws InputError when a mesh without extent should get a diagonal, or when coordinates become
+///   too large or small (`refuse_extreme_size`)
 TriangleMesh placed(TriangleMesh mesh, const Placement& placement);
 
-/// The mesh centred and scaled to a diagonal: `placed` with nothing else.
-/// @param diagonal metres, > 0
-/// @throws InputError when the mesh has no extent (no vertices, or all of them in one place) or gets coordinates
-///         that products of lengths do not bear (`refuse_extreme_size`)
+/// `placed` with the diagonal alone: centred and scaled.
+/// @throws InputError when the mesh has no extent (no vertices, or all in one place) or gets too
+///   large or small coordinates (`refuse_extreme_size`)
 inline TriangleMesh scaled_to_diagonal(TriangleMesh mesh, double diagonal) {
   return placed(std::move(mesh), {.diagonal = diagonal});
 }

@@ -22,7 +22,7 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr std::size_t LEAF_TRIANGLES = 4;
 
-/// Boxes over ranges of the triangles' order; children of a node stand behind it.
+/// Boxes over ranges of the triangles' order; a node is before its children.
 struct BoxNode {
   Box box;
   std::size_t begin = 0, end = 0;
@@ -36,7 +36,7 @@ class BoxTree {
     if (!order_.empty()) build(0, order_.size());
   }
 
-  /// Calls `look(a, b)` for pairs whose boxes overlap; stops where it says false.
+  /// Calls `look(a, b)` for pairs whose boxes overlap, until it returns false.
   template <typename Look>
   void overlapping_pairs(Look&& look) const {
     std::vector<std::pair<std::size_t, std::size_t>> stack;
@@ -73,7 +73,7 @@ class BoxTree {
     }
     std::size_t left = 0, right = 0;
     if (end - begin > LEAF_TRIANGLES) {
-      // Where boxes lie apart, not where they are long: halves of spikes side by side, parted by height, would overlap nearly all.
+      // By centres over box sizes: halves of long, parallel spikes would overlap.
       Eigen::Index axis = 0;
       const double least = std::numeric_limits<double>::min();
       centres.sizes().cwiseQuotient((extents.array() + least).matrix()).maxCoeff(&axis);
@@ -109,7 +109,7 @@ class BoxTree {
   std::vector<BoxNode> nodes_;
 };
 
-/// No three different corners, or all of them on a line, exactly.
+/// Exactly collinear corners, or fewer than three different ones.
 bool has_no_area(const Triangle& t) {
   for (int axis = 0; axis < 3; ++axis)
     if (orientation_2d(t[0], t[1], t[2], axis) != 0) return false;
@@ -157,7 +157,7 @@ bool meet_elsewhere(const Triangle& a, const Triangle& b) {
 }  // namespace
 
 SelfIntersections self_intersections(const TriangleMesh& given, std::int64_t most_pairs) {
-  // By a power of two, which is exact: triple products neither overflow nor vanish.
+  // Scaled by a power of two, which is exact: triple products neither overflow nor vanish.
   TriangleMesh mesh = given;
   const double largest = largest_coordinate(mesh.vertices);
   if (largest > 0.0)

@@ -13,24 +13,24 @@ namespace lmdbench {
 
 /// Where a surface touches or crosses itself.
 struct SelfIntersections {
-  std::int64_t pairs = 0;  ///< Pairs of triangles that share a point beyond a common corner or side.
-  std::optional<std::array<std::int32_t, 2>> first;  ///< The least of them, the smaller index first.
-  bool complete = true;  ///< All pairs were looked at; else `pairs` is a lower bound.
+  std::int64_t pairs = 0;  ///< Pairs that share a point beyond a common corner or side.
+  std::optional<std::array<std::int32_t, 2>> first;  ///< The least pair, smaller index first.
+  bool complete = true;  ///< All pairs were tested; else `pairs` is a lower bound.
 };
 
-/// Pairs that are looked at before the search gives up: hubs of thousands of needles would be looked at for hours.
+/// Pairs tested before the search gives up: hubs of thousands of needles would take hours.
 inline constexpr std::int64_t MOST_SELF_PAIRS = 20'000'000;
 
-/// Looks at every pair of triangles whose boxes overlap, by a tree of boxes over the triangles (median split along the longest side).
-/// Decided exactly, by signs of determinants (`triangle_intersection.h`), so that neighbours, which touch by construction, are told
-/// from those that fold over each other:
+/// Tests every pair of triangles whose boxes overlap, by a tree of boxes over the triangles (median
+/// split along the axis of the largest spread of centres over box size). Exact, by signs of
+/// determinants (`triangle_intersection.h`), to tell neighbours, which touch anyway, from folds:
 ///  - no common corner: they share any point;
 ///  - one: the opposite side of one shares a point with the other triangle;
 ///  - two: they lie in one plane, on the same side of the common edge;
 ///  - three: they are duplicates, which the validity report counts.
-/// Corners at the same place are the same corner, whatever their numbers. Triangles without area are left out: the validity report
-/// counts them.
-/// @param most_pairs that are looked at
+/// Corners at the same place are the same corner, whatever their numbers. Triangles without area
+/// are skipped; the validity report counts them.
+/// @param most_pairs to test
 SelfIntersections self_intersections(const TriangleMesh& mesh, std::int64_t most_pairs = MOST_SELF_PAIRS);
 
 /// A clause for people.

@@ -59,8 +59,8 @@ std::array<std::int32_t, 2> edges_at(const Surface& surface, std::int32_t triang
   return {edges[k], edges[(k + 2) % 3]};
 }
 
-/// Walks round a vertex from triangle to triangle. False where that does not lead through all of them, or is not that simple: an edge
-/// with other than two triangles, a triangle that names a vertex twice and turns the walk round.
+/// Walks round a vertex from triangle to triangle. False where the walk misses some, or meets an
+/// edge without exactly two triangles or a triangle that names a vertex twice.
 bool is_one_closed_fan(const Surface& surface, std::int32_t vertex) {
   const auto triangles = surface.adjacency.vertex_triangles[vertex];
   std::int32_t triangle = triangles.front(), edge = -1;
@@ -77,11 +77,11 @@ bool is_one_closed_fan(const Surface& surface, std::int32_t vertex) {
   return false;
 }
 
-/// In time about linear in the triangles there, however many an edge has: a vertex may be in all of a mesh.
+/// About linear in the vertex's triangles, however many an edge has: it may have all of a mesh.
 bool has_several_fans(const Surface& surface, std::int32_t vertex) {
   const auto triangles = surface.adjacency.vertex_triangles[vertex];
   if (triangles.empty() || is_one_closed_fan(surface, vertex)) return false;
-  std::vector<std::pair<std::int32_t, std::size_t>> sides;  // edge at the vertex, place in `triangles`
+  std::vector<std::pair<std::int32_t, std::size_t>> sides;  // edge there, place in `triangles`
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       if (surface.mesh.triangles[static_cast<std::size_t>(triangles[i])][k] == vertex)
@@ -98,8 +98,8 @@ bool has_several_fans(const Surface& surface, std::int32_t vertex) {
 void derive_flags(Surface& surface) {
   const Adjacency& adjacency = surface.adjacency;
   const std::size_t edge_count = adjacency.edges.size(), vertex_count = surface.mesh.vertices.size();
-  // Sides that run from the smaller vertex to the larger one, minus the others. It may wrap round, but not
-  // where there are two triangles, and nobody asks where there are more.
+  // Sides that run from the smaller vertex to the larger one, minus the others. May overflow, but
+  // not with two triangles, and with more it is not used.
   std::vector<std::int8_t> balance(edge_count, 0);
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {

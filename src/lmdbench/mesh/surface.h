@@ -34,39 +34,39 @@ class TriangleList {
   std::size_t size_;
 };
 
-/// A mesh with all that is derived from it once and read by every method: shared between methods and threads, and
-/// immutable but where a mesh deforms (surface_change.h). Directions are unit vectors in the mesh's frame.
+/// A mesh with all that every method derives from it: shared between methods and threads, immutable
+/// except where a mesh deforms (surface_change.h). Directions are unit vectors in the mesh's frame.
 struct Surface {
   TriangleMesh mesh;
   Adjacency adjacency;
   std::vector<Vec3> face_normals;           ///< #T by 3; zero for a triangle without area.
-  std::vector<Vec3> vertex_pseudo_normals;  ///< #V by 3; angle-weighted (Baerentzen and Aanaes 2005).
-  /// #V, or empty; set where a deformation made the pseudo-normal another one: next to nobody asks, so it is made then.
+  std::vector<Vec3> vertex_pseudo_normals;  ///< #V by 3; angle-weighted (Baerentzen, Aanaes 2005).
+  /// #V, or empty. A deformation changed the pseudo-normal; it is made on demand, which is rare.
   std::vector<bool> vertex_normal_is_stale;
   std::vector<bool> edge_is_boundary;    ///< #E; the edge has exactly one triangle.
   std::vector<bool> vertex_is_boundary;  ///< #V; some incident edge is a boundary edge.
   std::vector<bool>
       edge_is_non_manifold;  ///< #E; more than two triangles, or two that disagree on orientation.
   std::vector<bool> vertex_has_non_manifold_edge;  ///< #V; some incident edge is non-manifold.
-  /// #V; the triangles there are several fans (groups that hang together over edges at the vertex): surfaces touch in it only.
+  /// #V; its triangles are several fans (groups connected over edges there) that share only it.
   std::vector<bool> vertex_has_several_fans;
 
-  /// Id of a triangle's part.
+  /// Id of a triangle's feature.
   FeatureId feature_of(std::int32_t triangle, TriangleFeature part) const;
-  /// Triangles that contain the feature: one for a face, those on the edge, those
-  /// round the vertex (paper, Fig. 5).
+  /// Triangles of the feature: the face, those on the edge, those round the vertex (paper, Fig. 5).
   TriangleList incident_triangles(const FeatureId& feature) const;
-  /// Pseudo-normal of the feature: decides the outer side. Of an edge it is the normalised sum of the
-  /// incident faces' normals, or zero; made when it is asked for, because next to nobody asks.
+  /// Pseudo-normal of the feature: decides the outer side. Of an edge it is the normalised sum of
+  /// the incident faces' normals, or zero; made on demand, because few ask for it.
   Vec3 pseudo_normal(const FeatureId& feature) const;
   Vec3 vertex_normal(std::int32_t vertex) const;
-  /// Whether the feature has an outer side: not on a boundary, its triangles are one consistently oriented fan (an edge: two
-  /// triangles), and its pseudo-normal is not zero. Asked by every decision: how triangles hang together is looked up.
+  /// Whether the feature has an outer side: not on a boundary, its triangles one consistently
+  /// oriented fan (an edge: two), its pseudo-normal not zero. Connectivity is stored: all decisions
+  /// ask.
   bool has_outer_side(const FeatureId& feature) const;
   /// A boundary edge, or a vertex on one; a face never is.
   bool is_boundary(const FeatureId& feature) const;
-  /// Memory that all of this takes; certified, improved and exhaustive read no other part of a
-  /// mesh but their own hierarchies.
+  /// Memory of all of this; certified, improved and exhaustive read nothing else of a mesh but
+  /// their own hierarchies.
   std::size_t bytes() const;
 };
 

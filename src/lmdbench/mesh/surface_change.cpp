@@ -17,7 +17,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Triangles that one task takes at a time: what fewer cost is not worth a second thread.
+/// Triangles of one task: fewer are not worth a second thread.
 constexpr std::size_t FACES_A_TASK = 4096;
 
 }  // namespace
@@ -28,7 +28,7 @@ void check_moved_vertices(const std::string& name, const TriangleMesh& mesh, std
                      fmt::format("{} vertices for a mesh of {}", vertices.size(), mesh.vertices.size()),
                      "a deformation keeps the topology: give every vertex of the mesh, in its order");
   if (vertices.empty()) return;
-  // Both reductions are passes without a branch; which vertex is at fault is looked for where there is one.
+  // Both reductions are passes without a branch; only an error makes it look for the vertex.
   double sum = 0.0;
   for (const Vec3& p : vertices) sum += 0.0 * (p.x() + p.y() + p.z());
   if (!(sum == 0.0) || !(largest_coordinate(vertices) <= LARGEST_COORDINATE)) {

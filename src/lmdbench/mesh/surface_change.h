@@ -11,23 +11,22 @@
 
 namespace lmdbench {
 
-/// What one step of a deformation changed in a surface: vertices move, triangles stay. Indices, each once.
+/// Changes of a surface in one step of a deformation: only vertices move. Indices are unique.
 struct SurfaceChange {
-  std::vector<std::int32_t> moved;  ///< Vertices whose coordinates are others, ascending.
-  std::vector<std::int32_t> faces;  ///< Triangles that have one of them.
-  std::vector<std::int32_t> edges;  ///< Of these triangles.
-  std::vector<std::int32_t>
-      vertices;  ///< Of these triangles; with the edges and faces, all features whose wings changed.
-  double largest_move = 0.0;  ///< Of a vertex [m].
+  std::vector<std::int32_t> moved;     ///< Vertices whose coordinates changed, ascending.
+  std::vector<std::int32_t> faces;     ///< Triangles that have one of them.
+  std::vector<std::int32_t> edges;     ///< Of these triangles.
+  std::vector<std::int32_t> vertices;  ///< Likewise; edges, faces and these: all with new wings.
+  double largest_move = 0.0;           ///< Of a vertex [m].
 
-  /// Triangles whose normal turned by more than a right angle in this step, and the first of them in the mesh's order; -1 for none.
-  /// They are facts, no errors: the mesh is what its vertices say.
+  /// Triangles whose normal turned by more than a right angle in this step, and the first in the
+  /// mesh's order; -1 for none. They are no errors: the vertices define the mesh.
   std::int64_t turned_over = 0;
   std::int32_t first_turned_over = -1;
-  /// Triangles that had an area before this step and have none now.
+  /// Triangles that lost their area in this step.
   std::int64_t lost_area = 0;
   std::int32_t first_lost_area = -1;
-  bool regained_area = false;  ///< Some triangle had no area before this step and has one now.
+  bool regained_area = false;  ///< Some triangle without area has one since this step.
 
   /// Whether a triangle is one of `faces`.
   bool has_face(std::int32_t triangle) const {
@@ -37,14 +36,14 @@ struct SurfaceChange {
   std::vector<std::uint32_t> face_marks;  ///< #T; step in which each was one of `faces` last.
 };
 
-/// Checks vertices that a mesh is to get.
+/// Checks new vertices of a mesh.
 /// @param name of the mesh, for messages
-/// @throws InputError for another number of vertices than the mesh has, a coordinate that is no number or too large, and vertices
-///         that are all in one place
+/// @throws InputError for a wrong number of vertices, a coordinate that is not a number or is too
+///   large, and vertices that are all in one place
 void check_moved_vertices(const std::string& name, const TriangleMesh& mesh, std::span<const Vec3> vertices);
 
-/// Gives a surface new vertices, again and again, at a cost that grows with what moves: adjacency stays, normals follow
-/// where a vertex moved. The surface then says, bit for bit, what the one says that `build_surface` makes of its mesh.
+/// Gives a surface new vertices at a cost that grows with the motion: adjacency stays, normals
+/// follow where a vertex moved. The result is, bit for bit, that of `build_surface` of its mesh.
 class SurfaceMover {
  public:
   explicit SurfaceMover(const Surface& surface);

@@ -11,13 +11,13 @@
 
 namespace lmdbench {
 
-/// Indexed triangle mesh: what files hold. Frame: the mesh's own; unit: metres
-/// after scaling, else the file's.
+/// Indexed triangle mesh, as in files. In its own frame; unit: metres after scaling, else the
+/// file's.
 struct TriangleMesh {
   std::vector<Vec3> vertices;                          ///< #V by 3.
-  std::vector<std::array<std::int32_t, 3>> triangles;  ///< #T by 3, counter-clockwise seen from outside.
-  /// How far the true planes may be from those of the coordinates, because the file was rounded (flatten.h);
-  /// 0 for a mesh that is taken at its word.
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< #T by 3, counter-clockwise from outside.
+  /// Distance of the true planes from those of the coordinates, because the file was rounded
+  /// (flatten.h); 0 for exact coordinates.
   double planar_tolerance = 0.0;
 
   Triangle triangle(std::int32_t index) const {

@@ -11,7 +11,7 @@ namespace lmdbench {
 
 namespace {
 
-// a * b - c * d with one rounding error of the result's size (Kahan): a plain difference of products loses
+// a * b - c * d with one rounding error of the result's size (Kahan). A plain difference loses
 // every digit on needles, whose normals are then noise although their corners are exact.
 double difference_of_products(double a, double b, double c, double d) {
   const double cd = c * d;
@@ -41,7 +41,7 @@ Vec3 triangle_normal(const Triangle& triangle) {
     largest = std::max(largest, sides[k].cwiseAbs().maxCoeff());
   }
   if (!(largest > 0.0)) return Vec3::Zero();
-  // Powers of two: scaling changes no digit. In two steps, because the inverse of a subnormal is no number.
+  // Powers of two change no digit. In two steps, because the inverse of a subnormal is no number.
   const double half_scale = std::scalbn(1.0, -std::ilogb(largest) / 2);
   const double rest = std::scalbn(1.0, -std::ilogb(largest * half_scale));
   double longest_squared = 0.0;

@@ -13,28 +13,28 @@
 
 namespace lmdbench {
 
-/// What a mesh is like: nothing here stops an algorithm, but results on open, non-manifold or inside-out
-/// meshes need the words beside them. Lengths in the mesh's unit.
+/// Properties of a mesh. None stops an algorithm, but results on open, non-manifold or inside-out
+/// meshes need a warning. Lengths in the mesh's unit.
 struct ValidityReport {
   std::int64_t vertices = 0;
   std::int64_t edges = 0;
   std::int64_t triangles = 0;
   std::int64_t unused_vertices = 0;  ///< Vertices without triangles.
-  std::int64_t components = 0;       ///< Groups of triangles that hang together over vertices.
+  std::int64_t components = 0;       ///< Groups of triangles that are connected over vertices.
 
   std::int64_t boundary_edges = 0;
-  std::int64_t boundary_loops = 0;         ///< Groups of boundary edges that hang together over vertices.
+  std::int64_t boundary_loops = 0;         ///< Groups of boundary edges, connected over vertices.
   std::int64_t non_manifold_edges = 0;     ///< Edges with more than two triangles.
   std::int64_t non_manifold_vertices = 0;  ///< Vertices whose triangles are not one fan.
-  std::int64_t misoriented_edges = 0;      ///< Edges whose two triangles disagree on which side is out.
+  std::int64_t misoriented_edges = 0;      ///< Edges whose triangles disagree on the outer side.
   std::int64_t degenerate_triangles = 0;   ///< Triangles without area (ZERO_AREA_TOLERANCE).
-  std::int64_t duplicate_triangles = 0;    ///< Triangles on the vertices of an earlier one, in any order.
+  std::int64_t duplicate_triangles = 0;    ///< With an earlier one's vertices, in any order.
 
   bool closed = false;                 ///< No boundary edge.
   bool manifold = false;               ///< No non-manifold edge or vertex.
   bool consistently_oriented = false;  ///< No misoriented edge.
-  std::optional<bool> outward;   ///< Encloses a positive volume; only where closed and consistently oriented.
-  std::optional<double> volume;  ///< Enclosed volume, signed; only where closed and consistently oriented.
+  std::optional<bool> outward;         ///< Whether `volume` is positive; unset where that is.
+  std::optional<double> volume;        ///< Enclosed, signed; only if closed, consistently oriented.
   std::optional<std::int64_t>
       genus;  ///< Sum over the components; only where closed, manifold, consistently oriented.
 
@@ -48,11 +48,11 @@ struct ValidityReport {
 
 ValidityReport check_mesh(const Surface& surface);
 
-/// Sentences for what is amiss, worst first; empty for a closed, manifold, consistently and outward oriented
-/// mesh without degenerate or duplicate triangles.
+/// Sentences about faults, worst first; empty for a closed, manifold, consistently and outward
+/// oriented mesh without degenerate or duplicate triangles.
 std::vector<std::string> findings(const ValidityReport& report);
 
-/// Keys as the members above; what is not known is null.
+/// Keys as the members above; unknown values are null.
 nlohmann::ordered_json to_json(const ValidityReport& report);
 
 /// Lines for people, with a final newline.

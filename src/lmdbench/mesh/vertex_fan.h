@@ -6,12 +6,12 @@
 
 namespace lmdbench {
 
-/// Calls visit(neighbour) for the other ends of a vertex's edges, in the order of its
-/// triangles, until visit returns false.
-///
-/// Where each edge at the vertex has two triangles that agree on orientation, one of them runs away from the
-/// vertex, so the corners that follow the vertex are all its neighbours, and come once unless a triangle
-/// names the vertex twice. Elsewhere the corners before it are visited too, and a neighbour may come twice.
+/// Calls visit(neighbour) for the other ends of a vertex's edges, in the order of its triangles,
+/// until visit returns false.
+/// Where each edge at the vertex has two triangles that agree on orientation, one of them runs away
+/// from the vertex: the corners after the vertex are all its neighbours, once each unless a
+/// triangle names it twice. Elsewhere the corners before it are visited too; a neighbour may come
+/// twice.
 /// @return whether visit never returned false
 template <class Visit>
 bool for_each_neighbour(const Surface& surface, std::int32_t vertex, Visit visit) {

@@ -23,7 +23,7 @@ std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSu
     };
     const auto wrong = std::ranges::find(summary.nearest_errors, method.label, &NearestError::label);
     if (acceptance.asked && wrong != summary.nearest_errors.end()) broken.push_back(wrong->text());
-    // Comparisons with NaN are false: what was not measured is not kept.
+    // Comparisons with NaN are false: an unmeasured number breaks its limit.
     if (acceptance.recall)
       check("recall", method.recall, *acceptance.recall, method.recall >= *acceptance.recall, "at least");
     if (acceptance.force_error_n)

@@ -10,8 +10,8 @@
 
 namespace lmdbench {
 
-/// A sentence a broken limit, with the figure. A figure that could not be measured breaks its limit; and whatever they limit, a nearest
-/// distance of a method that promises the complete set breaks them where FCL and the exact search bear another one out.
+/// A sentence for each broken limit, with its number; an unmeasured number breaks its limit. Any
+/// limits are broken by a complete method whose nearest distance FCL and the exact search refute.
 std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSummary& summary);
 
 }  // namespace lmdbench

@@ -30,14 +30,14 @@ double weighted_rms(std::span<const Vec3> values, bool about_mean) {
   return std::sqrt(sum / weights);
 }
 
-/// ln(second / first); what vanishes in both windows does not grow.
+/// ln(second / first); a measure that is 0 in both windows does not grow.
 double growth(double first, double second) {
   if (second == 0.0) return -std::numeric_limits<double>::max();
   if (first == 0.0) return std::numeric_limits<double>::max();
   return std::log(second / first);
 }
 
-/// Oscillations a second: half the changes of sign of the velocity along the direction of most motion.
+/// Oscillations a second: half the sign changes of the velocity in the direction of most motion.
 double frequency(std::span<const Vec3> velocity, double period) {
   Mat3 spread = Mat3::Zero();
   for (const Vec3& v : velocity) spread += v * v.transpose();

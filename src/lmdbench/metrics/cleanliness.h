@@ -8,30 +8,30 @@
 #include <string_view>
 #include <vector>
 
-/// What "clean" means in a closed loop. After a small tap the device swings about the place where it rested. The run is clean
-/// when, from one stretch of WINDOW_CYCLES oscillations to the next, none of three measures grows:
-///  - amplitude: root mean square of the device's way from its mean place;
+/// When a closed loop is "clean". After a small tap the device swings about its place of rest. The
+/// run is clean if, from one stretch of WINDOW_CYCLES oscillations to the next, no measure grows:
+///  - amplitude: root mean square of the device's distance from its mean place;
 ///  - energy: mean of half the mass times the squared velocity;
-///  - force above 30 Hz: root mean square of the rendered force behind a Butterworth high pass of second order, what a
-///    hand feels as buzzing (left out where the servo rate is below 60 Hz, which cannot render it).
-/// The first SKIPPED_CYCLES belong to the tap. Sums are weighted by a Hann window, so that a stretch need not
-/// hold whole oscillations. An amplitude within the encoders' resolution is clean whatever it does.
+///  - force above 30 Hz: root mean square of the rendered force after a Butterworth high pass of
+///    second order, felt as buzzing (not at servo rates below 60 Hz, which cannot render it).
+/// The first SKIPPED_CYCLES belong to the tap. A Hann window weights the sums, so that a stretch
+/// need not hold whole oscillations. An amplitude within the encoders' resolution is always clean.
 namespace lmdbench {
 
 inline constexpr int SKIPPED_CYCLES = 5;
 inline constexpr int WINDOW_CYCLES = 20;
 inline constexpr double HIGH_PASS_HZ = 30.0;
 
-/// The signal behind the high pass, sample by sample; its start counts as a step from zero.
+/// The signal after the high pass, sample by sample; it begins with a step from zero.
 std::vector<Vec3> above_30_hz(const std::vector<Vec3>& signal, double period_s);
 
 /// A swing, frame by frame from the tap on.
 struct Swing {
   double period_s = 1e-3;
   double resolution_m = 0.0;
-  std::vector<Vec3> position_W;  ///< Way from the place of rest [m].
+  std::vector<Vec3> position_W;  ///< Displacement from rest [m].
   std::vector<Vec3> velocity_W;  ///< [m/s]
-  std::vector<Vec3> force_W;     ///< Rendered, less the force at rest [N].
+  std::vector<Vec3> force_W;     ///< Rendered, minus the force at rest [N].
 };
 
 enum class CleanMeasure : std::uint8_t { AMPLITUDE, ENERGY, FORCE_ABOVE_30_HZ };
@@ -40,19 +40,19 @@ inline constexpr std::size_t CLEAN_MEASURE_COUNT = 3;
 /// "amplitude", "energy", "force_above_30_hz".
 std::string_view to_string(CleanMeasure measure);
 
-/// How a swing went.
+/// The verdict about a swing.
 struct Cleanliness {
-  /// Largest growth of a measure from one window to the next, as the logarithm of the ratio of amplitudes (half that of
-  /// energies): negative where all decay, which is clean.
+  /// Largest growth of a measure from one window to the next, as the logarithm of the ratio of
+  /// amplitudes (half that of energies). Below 0 all decay: clean.
   double growth = 0.0;
-  CleanMeasure fastest = CleanMeasure::AMPLITUDE;  ///< Whose growth that is.
+  CleanMeasure fastest = CleanMeasure::AMPLITUDE;  ///< The measure that grows so.
   double amplitude_m = 0.0;                        ///< Root mean square in the last window.
   double frequency_hz = 0.0;  ///< Oscillations a second over both windows; 0 where there is none.
 
   bool clean() const { return growth <= 0.0; }
 };
 
-/// Judges a swing by its last two equal stretches behind the skipped part: with N frames the first N *
+/// Judges a swing by its last two equal stretches after the skipped part: of N frames the first N *
 /// SKIPPED_CYCLES / (SKIPPED_CYCLES + 2 WINDOW_CYCLES) are skipped.
 /// @pre at least 9 frames
 Cleanliness judge(const Swing& swing);

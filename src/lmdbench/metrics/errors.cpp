@@ -18,7 +18,7 @@ namespace {
 
 constexpr double TAIL = 0.025;
 
-/// The mean of a Poisson variable whose counts lie on one side of `count` with the probability TAIL, by way of chi-squared.
+/// Poisson mean whose counts are on one side of `count` with probability TAIL, by chi-squared.
 double limit(double degrees_of_freedom, double probability) {
   return 0.5 * boost::math::quantile(boost::math::chi_squared(degrees_of_freedom), probability);
 }

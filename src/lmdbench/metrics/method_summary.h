@@ -10,28 +10,28 @@
 
 namespace lmdbench {
 
-/// A number that is reported, with what a reader must know of it. Each is written once, as a line of a list (experiment/method_summary.def):
+/// A reported number, made from a line of a list (as metrics/method_summary.def).
 /// the struct's member, the name in files and in JSON, unit and meaning are made from that line.
 template <typename Numbers>
 struct Metric {
-  std::string_view name;  ///< Of the member, the dataset and the JSON key; ends in its unit where it has one.
+  std::string_view name;   ///< Of member, dataset and JSON key; ends in its unit.
   std::string_view units;  ///< SI symbol, "1" for counts and ratios.
   double Numbers::*value;
   std::string_view long_name;
-  /// Made of times although its unit is not one: different in every run.
+  /// Made of times although its unit is not one, so different in every run.
   bool counts_times = false;
 
   bool made_of_times() const { return units == "s" || counts_times; }
 };
 
-/// One method's numbers of a run, NaN for what was not measured. They are computed once, here, and printed,
-/// written into the result file and read by scripts under the same names; results/README.md tells each
-/// definition, errors.h and times.h the details.
+/// One method's numbers of a run, NaN for unmeasured ones. They are computed here alone; print,
+/// result file and scripts use the same names. Definitions: results/README.md; details: errors.h,
+/// times.h.
 struct MethodSummary {
   std::string label;
   std::string result_hash;
   std::string entry;    ///< The label without the profile.
-  std::string profile;  ///< Name of its force profile; empty for one alone.
+  std::string profile;  ///< Of its force profile; empty for a single one.
 
 #define NUMBER(name, ...) double name = UNSET;
 #include <lmdbench/metrics/method_summary.def>

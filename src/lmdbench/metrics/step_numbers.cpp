@@ -19,7 +19,7 @@ constexpr std::array STEP_NUMBERS = {
 #undef NUMBER
 };
 
-/// Sum of squares that becomes a root mean square.
+/// Accumulates a root mean square.
 class RootMeanSquare {
  public:
   void add(double value) {
@@ -62,7 +62,7 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
   LMDBENCH_EXPECTS(rows.size() == truth.size() && in_contact.size() == record.frames.size(),
                    "parallel arrays of unlike lengths");
   for (const StepNumber& number : STEP_NUMBERS) {
-    // Counts begin at 0; what is a mean or a quantile stays unset until it is known.
+    // Counts begin at 0; means and quantiles are unset until known.
     if (number.units == "1") numbers.*number.value = 0.0;
   }
   const auto index = static_cast<std::size_t>(law);
@@ -82,12 +82,12 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     numbers.frames_clipped += now.force_clipped ? 1.0 : 0.0;
     numbers.frames_empty += now.lmd_count == 0 ? 1.0 : 0.0;
     distance.push_back(std::abs(rows[i].minimum_distance_error));
-    if (!(minimum_distance(here.lmds) == 0.0)) {  // touching triangles have no direction, so no true force
+    if (!(minimum_distance(here.lmds) == 0.0)) {  // touching: no true force
       magnitude.add(now.force.norm() - true_length);
       angle.push_back(rows[i].force_angle_error);
       torque.add((now.torque - here.torque[index]).norm());
     }
-    if (i + 1 >= truth.size()) continue;  // the step from the last frame has no true end here
+    if (i + 1 >= truth.size()) continue;  // no true end is known here
     const FrameRecord& next = record.frames[frame + 1];
     const bool jumps = (next.force - now.force).norm() > JUMP_SHARE * maximum_force;
     const bool truly = here.force_jump[index] > JUMP_SHARE * maximum_force;

@@ -11,19 +11,19 @@
 #include <span>
 #include <vector>
 
-/// What truth in every frame lets a sweep say beyond the summary of a run (metrics/method_summary.h): events from
-/// one frame to the next, counted, so that they have intervals, and torque.
+/// Numbers of a sweep beyond a run's summary (metrics/method_summary.h) for truth in every frame:
+/// counted events between frames, with intervals, and torque.
 namespace lmdbench {
 
-/// A force below the first and one above the second share of F_max, one frame apart, is a switch between zero and
-/// strong (claim K1).
+/// A switch between zero and strong (claim K1): a force below the first share of F_max one frame
+/// apart from a force above the second.
 inline constexpr double ZERO_SHARE = 0.05;
 inline constexpr double STRONG_SHARE = 0.5;
 
-/// NaN for what was not measured. Every frame and step counts that is in contact.
+/// NaN for unmeasured numbers. Over all frames and steps in contact.
 struct StepNumbers {
-  double jumps = UNSET;  ///< Steps that change the force by more than JUMP_SHARE of F_max (errors.h); among
-  double true_jumps = UNSET;  ///< the numbers of the summary, like the same of the true force.
+  double jumps = UNSET;       ///< Steps with a force change over JUMP_SHARE of F_max (errors.h).
+  double true_jumps = UNSET;  ///< The same of the true force. Both are in the summary.
 #define NUMBER(name, ...) double name = UNSET;
 #include <lmdbench/metrics/step_numbers.def>
 #undef NUMBER
@@ -35,9 +35,9 @@ using StepNumber = Metric<StepNumbers>;
 std::span<const StepNumber> step_numbers();
 
 /// @param record     of a method on `run`, with the LMD set of every frame
-/// @param truth      of every frame from the first that counts on, but the last
+/// @param truth      of every frame but the last, from the first that counts
 /// @param rows       the comparison of each truth frame
-/// @param truth_run  whose meshes truth is of: features correspond where it is `run` itself
+/// @param truth_run  has truth's meshes: features correspond where it is `run` itself
 /// @param in_contact one a frame
 StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vector<TruthFrame>& truth,
                         const std::vector<TruthComparison>& rows, const PreparedRun& run,

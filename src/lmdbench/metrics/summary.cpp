@@ -60,7 +60,7 @@ void summarise_truth(RunSummary& summary, const RunResult& result) {
   summary.true_lmd_count_maximum = maximum(counts);
 }
 
-/// Every method under a later profile against itself under the first one; the methods of a profile stand together.
+/// Every method under a later profile against itself under the first. Methods go by profile.
 void summarise_profiles(RunSummary& summary, const Experiment& experiment, const RunResult& result) {
   const std::size_t entries = experiment.methods.size() / experiment.profiles.size();
   for (std::size_t first = 0; first < entries; ++first) {

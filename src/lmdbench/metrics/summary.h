@@ -13,39 +13,39 @@
 
 namespace lmdbench {
 
-/// A method under one of several profiles, beside itself under the first one.
+/// A method under a later profile, compared with itself under the first one.
 struct ProfileDifference {
   std::size_t method = 0;  ///< Index in the summary's methods.
   std::size_t first = 0;   ///< The same method under the first profile.
-  /// Length of the difference of the two rendered forces over the frames in which either is in contact, at the same poses:
-  /// NaN in a closed loop, where the poses differ.
+  /// Length of the difference of the two rendered forces at the same poses, over frames with
+  /// contact of either; NaN in a closed loop, where the poses differ.
   double force_difference_rms_n = UNSET;
   double force_difference_maximum_n = UNSET;
 };
 
-/// A method that promises the complete set, and frames in which the FCL cross-check shows that it is none.
+/// A method that promises the complete set, and frames in which FCL disproves it.
 struct NearestError {
   std::string label;
   std::int64_t frames = 0;
   FclException first;
 
-  /// For people: the first frame and all opinions there.
+  /// For people: the first frame and its distances by all.
   std::string text() const;
 };
 
-/// The numbers of a run. Times leave the warm-up out and are never shown without the errors beside them.
+/// The numbers of a run. Times exclude the warm-up and are never shown without errors.
 struct RunSummary {
   std::string name;
   bool closed_loop = false;
   std::int64_t frames = 0;
-  /// Of the path; in a closed loop that is the one that the hand means, and each method tells those of its device.
+  /// Of the path; in a closed loop the hand's. Each method has the number of its device.
   std::int64_t frames_in_contact = 0;
   std::int64_t frames_probed = 0;  ///< 0: no truth, errors are not measured.
   std::int64_t measured_repetitions = 0;
   double frame_rate_hz = UNSET;
   double cutoff_m = UNSET;
-  /// Label of the method whose sets are the truth of every frame (CompleteTruth), in a closed loop of the first method's
-  /// device; empty where truth is known in the probed frames alone.
+  /// Label of the method that gives the truth of every frame (CompleteTruth), in a closed loop for
+  /// the first method's device; empty where truth is known in the probed frames alone.
   std::string truth_of_every_frame;
   double true_lmd_count_median = UNSET;   ///< Over the frames in contact whose truth is known.
   double true_lmd_count_maximum = UNSET;  ///< Over the frames whose truth is known.
@@ -54,12 +54,12 @@ struct RunSummary {
   std::int64_t fcl_frames = 0;              ///< Cross-checked frames; 0: not asked for.
   std::int64_t fcl_separated = 0;
   std::int64_t fcl_agreeing = 0;                       ///< Separated or not.
-  std::map<std::string, std::int64_t> fcl_exceptions;  ///< By who was out of tolerance.
-  std::vector<NearestError> nearest_errors;            ///< One a method that is wrong.
+  std::map<std::string, std::int64_t> fcl_exceptions;  ///< By label of the one out of tolerance.
+  std::vector<NearestError> nearest_errors;            ///< One for each wrong method.
   double fcl_tolerance_relative = UNSET;
   std::vector<std::string> warnings;
   std::vector<std::string> broken_limits;  ///< Of the experiment's "limits".
-  std::vector<DefaultNote> defaults;       ///< What the experiment file leaves open.
+  std::vector<DefaultNote> defaults;       ///< Values that the file leaves open.
 };
 
 RunSummary summarise(const Experiment& experiment, const RunResult& result);
@@ -67,13 +67,13 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result);
 /// For people: a line a method (errors beside times, over the frames in contact), and the verdicts.
 std::string summary_table(const RunSummary& summary);
 
-/// All numbers for people, and the verdicts. With several profiles a table sets them beside each other, method by method.
+/// All numbers for people, and the verdicts; several profiles are compared method by method.
 std::string summary_text(const RunSummary& summary);
 
-/// Notes, wrong nearest distances and broken limits, a line each.
+/// Notes, wrong nearest distances and broken limits, one line each.
 std::string summary_verdicts(const RunSummary& summary);
 
-/// JSON text with the same numbers under the names of `summary_numbers`, null for NaN. With several profiles, "profiles":
+/// JSON text with the same numbers named as in `summary_numbers`, null for NaN; also "profiles":
 /// [{"method", "profile", "against", "force_difference_rms_n", "force_difference_maximum_n",
 /// "differences": {NUMBER: value - value under the first profile}}].
 std::string summary_json(const RunSummary& summary);

@@ -16,12 +16,12 @@
 namespace lmdbench {
 namespace {
 
-/// A number with a unit, or "-" where it was not measured.
+/// A number with its unit, or "-" if unmeasured.
 std::string shown(double value, double scale, const char* unit, const char* format = "{:.3g}{}") {
   return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value * scale, unit);
 }
 
-/// "0.885 (0.913)": same features, and neighbouring features counting.
+/// "0.885 (0.913)": of same features, and in brackets with neighbouring features.
 std::string both(double same, double neighbours) {
   return fmt::format("{} ({})", shown(same, 1, ""), shown(neighbours, 1, ""));
 }
@@ -95,7 +95,7 @@ std::string method_text(const MethodSummary& m, const RunSummary& summary) {
   return text + "\n";
 }
 
-/// The numbers that tell profiles apart, with their column and unit in the table.
+/// Numbers that differ between profiles, with their column and unit in the table.
 struct ProfileColumn {
   const char* title;
   double MethodSummary::*value;
@@ -113,7 +113,7 @@ constexpr std::array PROFILE_COLUMNS = {
     ProfileColumn{"made [mJ]", &MethodSummary::energy_created_j, 1e3},
 };
 
-/// One line a method and profile, and below it what the profile changes.
+/// One line for each method and profile, then the profile's changes.
 std::string profile_table(const RunSummary& summary) {
   std::string text = fmt::format("{:<24} {:<10}", "profiles", "");
   for (const ProfileColumn& column : PROFILE_COLUMNS) text += fmt::format(" {:>11}", column.title);
@@ -147,7 +147,7 @@ std::string profile_table(const RunSummary& summary) {
   return text;
 }
 
-/// Three digits in the unit that suits them.
+/// Three digits in a fitting unit.
 std::string duration(double seconds) {
   constexpr std::array<std::pair<double, const char*>, 4> UNITS{
       {{1.0, " s"}, {1e3, " ms"}, {1e6, " us"}, {1e9, " ns"}}};

@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-constexpr double HAPTIC_FRAME_S = 1e-3;  ///< At 1 kHz, whatever the rate of the experiment.
+constexpr double HAPTIC_FRAME_S = 1e-3;  ///< 1 kHz, at any rate of the experiment.
 
 std::size_t first_measured(const MethodRecord& record) {
   return record.repetitions.size() > 1 ? 1 : 0;
@@ -23,7 +23,7 @@ double zero_where_unset(double value) {
   return std::isnan(value) ? 0.0 : value;
 }
 
-/// Median over the measured repetitions of the columns that count.
+/// Medians over the measured repetitions, of the columns that count.
 /// @param sample  takes a RepetitionTimes and a column
 template <typename Sample>
 std::vector<double> medians(const MethodRecord& record, const std::vector<bool>& counts,

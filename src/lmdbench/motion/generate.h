@@ -12,10 +12,10 @@
 
 namespace lmdbench {
 
-/// Exact minimum distance [m] between the moving mesh at X_WM and the fixed one; 0 when they intersect.
+/// Exact minimum distance [m] of the moving mesh at X_WM to the fixed one; 0 if they intersect.
 using DistanceFunction = std::function<double(const Pose& X_WM)>;
 
-/// Exact `first_reach` of a scene, without its many distances; 0 where the gap is never had.
+/// Exact `first_reach` of a scene, without its many distances; 0 where the gap never occurs.
 using ReachFunction =
     std::function<double(const Vec3& direction_W, const Eigen::Quaterniond& rotation, double gap)>;
 
@@ -36,15 +36,15 @@ struct PathScene {
 /// A gap counts as reached when it exceeds the wanted one by less than this part of it.
 inline constexpr double GAP_TOLERANCE = 1e-3;
 
-/// Steps of one approach; one that is not through by then (nearly tangential) stays
-/// where it is, which is outside.
+/// Most steps of one approach. One that has not ended by then (nearly tangential) stops where it
+/// is, which is outside.
 inline constexpr int MAXIMUM_APPROACH_STEPS = 400;
 
-/// Distance from centre to centre at which the moving mesh, coming from outside along `direction_W`, has
-/// the gap for the first time: the scene's own `reach`, or conservative advancement. A translation by s changes the distance by at
-/// most s, so stepping by the distance minus the gap never gets nearer than the gap, whatever the
-/// meshes' shapes. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass
-/// each other without coming that near.
+/// Distance between the centres at which the moving mesh, coming from outside along `direction_W`,
+/// first has the gap. By the scene's own `reach`, or by conservative advancement: a translation by
+/// s changes the distance by at most s, so steps of distance minus gap never come nearer than the
+/// gap. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass each
+/// other without coming that near.
 /// @param direction_W unit, from the fixed mesh's centre to the moving one's
 /// @param gap metres, > 0
 double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen::Quaterniond& rotation,
@@ -58,16 +58,16 @@ double wanted_gap(const std::vector<GapPoint>& gaps, double time);
 inline constexpr const char* GENERATED_PATH_MARK = "made by 'lmdbench path generate";
 
 /// Makes a path:
-///  1. The direction from the fixed mesh to the moving one wanders over the sphere, and the moving mesh turns
-///     about its own centre (`Wander`); both are smooth and depend on the seed alone.
+///  1. The direction from the fixed mesh to the moving one wanders over the sphere, and the moving
+///     mesh turns about its own centre (`Wander`); both are smooth and depend on the seed alone.
 ///  2. In every frame `first_reach` finds the centre distance with the wanted gap.
-///  3. That distance jumps where the first contact jumps (silhouettes) and has kinks where contacts change
-///     over: `bounded_majorant` lays a motion above it that a hand could make. Above is outside, so gaps
-///     only grow.
+///  3. That distance jumps where the first contact jumps (silhouettes) and has kinks where contacts
+///     change. `bounded_majorant` lays a motion above it that a hand could make. Above is outside,
+///     so gaps only grow.
 ///  4. Every (frame rate / stored rate)-th pose is kept.
 ///
-/// Between stored poses the interpolated path may come nearer than wanted by
-/// micrometres: check it (`measure_gaps`).
+/// Between stored poses the interpolated path may be nearer than wanted by micrometres: check it
+/// (`measure_gaps`).
 Path generate_path(const PathSpec& spec, const PathScene& scene, const ProgressFunction& progress = {});
 
 /// Gaps of a path's frames.

@@ -21,21 +21,21 @@ namespace {
 /// A path counts as grazing when it comes this near, in cutoffs.
 constexpr double NEAR_ENOUGH = 0.5;
 
-/// Of lengths and speeds, so that a specification can be read.
+/// Digits of lengths and speeds, so that people can read a specification.
 constexpr int DIGITS = 4;
 
-/// Of one seed: poses and gaps at the first rate; at the haptic rate again only where they come too near.
+/// Stages of a seed: poses and gaps at the first rate, and again at all frames if too near.
 constexpr std::size_t USUAL_STAGES = 2;
 constexpr std::size_t STAGE_SHARES = 1000;
 
-/// One progress over all seeds that may be tried, which never goes back: each stage is an equal part, and all seeds are expected.
+/// One progress over all seeds, which never goes back: every stage of every seed is an equal part.
 class SeedProgress {
  public:
   SeedProgress(const ProgressFunction& progress, std::uint64_t seeds) : progress_(progress), seeds_(seeds) {}
 
   void begin_seed(std::uint64_t seed) { first_ = (seed - 1) * USUAL_STAGES * STAGE_SHARES; }
 
-  /// What `generate_path` and `measure_gaps` tell; stages beyond USUAL_STAGES stay at the seed's end.
+  /// For `generate_path` and `measure_gaps`; stages beyond USUAL_STAGES stay at the seed's end.
   ProgressFunction of_stage(std::size_t stage) {
     if (!progress_) return {};
     return [this, stage](std::size_t done, std::size_t all) {
@@ -53,8 +53,8 @@ class SeedProgress {
   std::size_t shown_ = 0;
 };
 
-/// The smallest distance of the frames [m]. Only frames are looked at that, by how far a point can have come since the last one, may be nearer
-/// than the least so far.
+/// The smallest distance of the frames [m]. A frame is measured only if, by how far a point can
+/// have moved since the last measured one, it may be below the least so far.
 double smallest_gap(const Path& frames, const PathScene& scene, const ProgressFunction& progress) {
   const MeshBounds bounds{.centre = scene.moving_centre_M, .radius = scene.moving_radius};
   double least = std::numeric_limits<double>::infinity(), last = 0.0;
@@ -84,7 +84,7 @@ std::optional<GrazingPath> path_of_seed(const PathScene& scene, double cutoff, d
     result.path = generate_path(result.spec, scene, progress.of_stage(stage++));
     result.smallest_gap = smallest =
         smallest_gap(resample(PathInterpolator(result.path), haptic_rate), scene, progress.of_stage(stage++));
-    if (smallest < GRAZING_FLOOR_IN_CUTOFFS * cutoff) continue;  // between the poses: at every frame, then
+    if (smallest < GRAZING_FLOOR_IN_CUTOFFS * cutoff) continue;  // then all frames
     if (smallest <= NEAR_ENOUGH * cutoff) return result;
     break;  // it misses at any rate
   }
@@ -111,7 +111,7 @@ PathSpec grazing_spec(const PathScene& scene, double cutoff) {
 
 GrazingPath grazing_path(const PathScene& scene, double cutoff, double haptic_rate,
                          const ProgressFunction& progress) {
-  // Any is enough: the first one.
+  // Any number of contacts is enough: the first path.
   return rich_grazing_path(
       scene, cutoff, haptic_rate, [](const Path&) { return RICH_CONTACTS; }, progress);
 }

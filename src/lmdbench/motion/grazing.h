@@ -9,19 +9,19 @@
 #include <cstdint>
 #include <functional>
 
-/// The path of a scene that has none: the moving mesh comes in, slides and turns well within the cutoff, and
-/// leaves again. `lmdbench init` writes its specification for editing.
+/// The path of a scene that has none: the moving mesh comes in, slides and turns well within the
+/// cutoff, and leaves again. `lmdbench init` writes its specification for editing.
 namespace lmdbench {
 
-/// The gaps, in cutoffs: out of contact at both ends, three quarters of the time in contact, down to a
-/// twentieth of the cutoff.
+/// The gaps in cutoffs: out of contact at both ends, in contact for three quarters of the time,
+/// down to a twentieth of the cutoff.
 inline constexpr std::array<GapPoint, 5> GRAZING_GAPS_IN_CUTOFFS{
     {{0.0, 1.5}, {0.4, 0.5}, {1.0, 0.05}, {1.5, 0.25}, {2.0, 1.5}}};
 
 /// No frame may come nearer than this part of the cutoff.
 inline constexpr double GRAZING_FLOOR_IN_CUTOFFS = 0.02;
 
-/// Gaps are computed at this rate first; where the interpolated frames fall below the floor at every frame.
+/// First rate at which gaps are computed; if interpolated frames fall below the floor, all.
 inline constexpr double GRAZING_RATE = 250.0;  ///< Hz
 
 /// Seeds that are tried, in ascending order from 1, until a path grazes.
@@ -32,26 +32,26 @@ inline constexpr std::uint64_t GRAZING_SEEDS = 8;
 PathSpec grazing_spec(const PathScene& scene, double cutoff);
 
 struct GrazingPath {
-  PathSpec spec;  ///< With the seed and the rate that were used: `generate_path` makes the path again.
-  Path path;      ///< At the rate of the specification.
+  PathSpec spec;              ///< With its seed and rate: `generate_path` repeats the path.
+  Path path;                  ///< At the rate of the specification.
   double smallest_gap = 0.0;  ///< Over the haptic frames [m].
 };
 
-/// A path every haptic frame of which keeps the floor, and that comes within half the cutoff.
+/// A path whose haptic frames all keep the floor, and which comes within half the cutoff.
 /// @param haptic_rate frames a second that the path will be interpolated to [Hz]
 /// @throws InputError where no seed gives one: the meshes cannot be brought together from outside
 GrazingPath grazing_path(const PathScene& scene, double cutoff, double haptic_rate,
                          const ProgressFunction& progress = {});
 
-// Among paths that graze, one that shows what this program is about: several contacts at once.
+// Among the paths that graze: one with several contacts at once.
 
-/// Paths that are looked at, in the order of their seeds.
+/// How many paths are compared, in the order of their seeds.
 inline constexpr std::uint64_t RICH_SEEDS = 4;
-/// Contacts that are enough.
+/// With so many contacts a path is taken at once.
 inline constexpr double RICH_CONTACTS = 2.0;
 
-/// The first path of `grazing_path`'s seeds that has RICH_CONTACTS; of RICH_SEEDS that have fewer the one with the most.
-/// @param contacts  how many a path has, by the caller's measure; called once a path that grazes
+/// The first grazing path with RICH_CONTACTS; if none, the one with the most of RICH_SEEDS.
+/// @param contacts  counts a path's contacts; called once for every path that grazes
 /// @param progress  over all RICH_SEEDS, never going back; it ends early where fewer are enough
 /// @throws InputError as `grazing_path`
 GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double haptic_rate,

@@ -17,8 +17,8 @@
 namespace lmdbench {
 namespace {
 
-/// Slopes at the poses from the secants between them: inside, the slope of the parabola through a pose and
-/// its two neighbours; at the ends, that of the outermost such parabola.
+/// Slopes at the poses from the secants between them: inside, of the parabola through a pose and
+/// its two neighbours; at the ends, of the outermost such parabola.
 std::vector<Vec3> parabola_slopes(const std::vector<double>& steps, const std::vector<Vec3>& secants) {
   const std::size_t count = secants.size() + 1;
   LMDBENCH_EXPECTS(steps.size() == secants.size() || secants.empty(), "parallel arrays of unlike lengths");
@@ -38,7 +38,7 @@ std::vector<Vec3> parabola_slopes(const std::vector<double>& steps, const std::v
 
 Vec3 hermite(const Vec3& p0, const Vec3& step_v0, const Vec3& p1, const Vec3& step_v1, double u) {
   const Vec3 chord = p1 - p0;
-  // Offset from p0 and not a blend of p0 and p1: far from the origin the blend would round the motion away.
+  // An offset from p0: far from the origin a blend of p0 and p1 would round the motion away.
   return p0 + u * (step_v0 +
                    u * ((3.0 * chord - 2.0 * step_v0 - step_v1) + u * (step_v0 + step_v1 - 2.0 * chord)));
 }
@@ -151,7 +151,7 @@ void refuse_too_many_frames(const PathInterpolator& interpolator, double rate,
 
 Path resample(const PathInterpolator& interpolator, double rate, std::optional<std::size_t> most) {
   const double periods = (interpolator.end_time() - interpolator.start_time()) * rate;
-  // Not counted where the limit decides: the count need not fit an integer.
+  // Without a count where the limit decides: the count need not fit an integer.
   const bool cut = most && periods >= static_cast<double>(*most);
   std::size_t count = cut ? *most : frame_count(interpolator, rate);
   if (most) count = std::min(count, *most);

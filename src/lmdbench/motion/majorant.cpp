@@ -20,8 +20,8 @@ struct Share {
 };
 constexpr std::array<Share, 3> PASSES = {{{0.6, 0.4}, {0.2, 0.3}, {0.2, 0.3}}};
 
-/// Drop below a sample after `time`: braking parabola up to full speed, then a straight line; its curvature
-/// is at most the acceleration.
+/// Drop below a sample after `time`: braking parabola up to full speed, then a straight line. Its
+/// curvature is at most the acceleration.
 double cap_drop(double time, const MotionLimits& limits) {
   LMDBENCH_EXPECTS(time >= 0.0 && limits.speed > 0.0 && limits.acceleration > 0.0,
                    "limits that were not checked (path_spec.h)");
@@ -30,8 +30,8 @@ double cap_drop(double time, const MotionLimits& limits) {
   return limits.speed * (time - 0.5 * time_to_full_speed);
 }
 
-/// The highest of all caps at every sample, in n log n steps: a cap falls ever faster to either side, so that of two caps the
-/// one to the right is the higher from some sample on, and the highest one's centre never goes back from sample to sample.
+/// The highest of all caps at every sample, in n log n steps: a cap falls ever faster to either
+/// side, so of two caps the right one is higher from some sample on: the best never moves back.
 class HighestCaps {
  public:
   HighestCaps(const std::vector<double>& samples, double time_step, const MotionLimits& limits)
@@ -62,7 +62,7 @@ class HighestCaps {
   std::vector<double> drops_, highest_;
 };
 
-/// Smallest function above `values` whose second differences are at most acceleration * time_step^2.
+/// Smallest function above `values` with second differences up to acceleration * time_step^2.
 std::vector<double> limit_speeding_up(const std::vector<double>& values, double time_step,
                                       double acceleration) {
   const auto parabola = [&](std::size_t i) {

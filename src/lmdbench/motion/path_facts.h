@@ -17,14 +17,14 @@ struct PathFacts {
   double longest_interval = 0.0;  ///< seconds
   std::size_t gaps = 0;           ///< Intervals that are held, not interpolated.
   double duration = 0.0;          ///< seconds
-  double length = 0.0;            ///< Way of the mesh frame's origin [m].
-  double turning = 0.0;           ///< Way of the rotation [rad].
+  double length = 0.0;            ///< Travelled by the mesh frame's origin [m].
+  double turning = 0.0;           ///< Angle turned in all [rad].
   // Largest finite differences between neighbouring frames; NaN where there are too few frames.
   double maximum_speed = 0.0;                 ///< m/s
   double maximum_acceleration = 0.0;          ///< m/s^2
   double maximum_angular_speed = 0.0;         ///< rad/s
   double maximum_angular_acceleration = 0.0;  ///< rad/s^2
-  Vec3 lower_corner;                          ///< Of the box that holds the mesh frame's origin [m].
+  Vec3 lower_corner;                          ///< Of the box of the mesh frame's origin [m].
   Vec3 upper_corner;
 };
 

@@ -23,16 +23,16 @@ struct PlacedMesh {
   Placement placement;
 };
 
-/// Wanted gap between the meshes at a time. From point to point the gap's logarithm makes a minimum-jerk step
-/// (Flash and Hogan 1985: what a hand does), so that it falls and rises smoothly over several orders of
-/// magnitude, rests at each point and never leaves the two values.
+/// Wanted gap between the meshes at a time. From point to point the gap's logarithm makes a
+/// minimum-jerk step (Flash and Hogan 1985: what a hand does), so it changes smoothly over several
+/// orders of magnitude, rests at each point and never leaves the two values.
 struct GapPoint {
   double time = 0.0;  ///< seconds
   double gap = 0.0;   ///< Fraction of the moving mesh's diagonal, > 0.
 };
 
-/// Limits of the radial motion where a specification gives none, in diagonals of the moving mesh: those of the
-/// recorded paths, where 0.15 m move with 0.15 m/s and 3 m/s^2.
+/// Default limits of the radial motion, in diagonals of the moving mesh: those of the recorded
+/// paths, where 0.15 m move with 0.15 m/s and 3 m/s^2.
 inline constexpr double DEFAULT_RADIAL_SPEED = 1.0;          ///< 1/s
 inline constexpr double DEFAULT_RADIAL_ACCELERATION = 20.0;  ///< 1/s^2
 
@@ -59,8 +59,8 @@ struct PathSpec {
 };
 
 /// Reads a specification.
-/// @throws UsageError naming the file, the JSON pointer and the remedy: not JSON, unknown or missing
-///         key, wrong type, value out of range; InputError when the file cannot be read
+/// @throws UsageError naming the file, the JSON pointer and the remedy: not JSON, unknown or
+///         missing key, wrong type, value out of range; InputError when the file cannot be read
 PathSpec read_path_spec(const std::filesystem::path& file);
 
 /// The same from text; `name` stands for the file in messages.

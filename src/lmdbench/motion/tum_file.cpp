@@ -24,11 +24,10 @@ namespace {
 
 constexpr std::string_view COLUMNS = "time x y z qx qy qz qw";
 constexpr std::size_t COLUMN_COUNT = 8;
-constexpr std::size_t QUOTED_LENGTH = 40;  ///< Of a broken word in a message: the file may be binary.
+constexpr std::size_t QUOTED_LENGTH = 40;  ///< Of a word in a message: it may be binary.
 constexpr std::string_view BLANKS = " \t\r";
 
-/// |q|^2 of a quaternion that was normalised in double precision stays within this of 1: such a one
-/// keeps its bits.
+/// A quaternion normalised in double precision has |q|^2 within this of 1, and keeps its bits.
 constexpr double UNIT_ROUNDING = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// What is wrong with a pose and what to do about it; empty when nothing is.
@@ -50,7 +49,7 @@ Complaint complaint_about(const TimedPose& timed, const TimedPose* previous) {
             "sort the poses by time and keep one pose a time"};
   if (!(timed.pose.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE))
     return {fmt::format("a coordinate above {:g} m", LARGEST_COORDINATE), "give metres, near the meshes"};
-  // Not |q|^2: the tolerance is one of lengths.
+  // The tolerance is one of lengths, not of |q|^2.
   const double length = timed.pose.rotation.coeffs().stableNorm();
   if (std::abs(length - 1.0) > QUATERNION_LENGTH_TOLERANCE)
     return {fmt::format("the quaternion's length is {:.6g}, not 1", length),
@@ -69,7 +68,7 @@ std::vector<std::string_view> split(std::string_view line) {
 }
 
 double parse_number(std::string_view word, const std::string& name, const std::string& place) {
-  // from_chars knows no leading '+', which some tools write.
+  // from_chars accepts no leading '+', which some tools write.
   const std::string_view digits = word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);

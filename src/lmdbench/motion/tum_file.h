@@ -11,8 +11,8 @@
 
 namespace lmdbench {
 
-/// Largest relative deviation of a quaternion's length from 1 that reading accepts (and normalises):
-/// trajectory files are often written with four decimals, which leaves deviations of about 1e-4; more is an
+/// Largest relative deviation of a quaternion's length from 1 that reading accepts (and
+/// normalises). Trajectory files often have four decimals, which leaves about 1e-4; more is an
 /// error of the data.
 inline constexpr double QUATERNION_LENGTH_TOLERANCE = 1e-3;
 
@@ -21,9 +21,9 @@ inline constexpr double QUATERNION_LENGTH_TOLERANCE = 1e-3;
 /// whatever the locale. A quaternion that is unit to rounding keeps its bits, so reading what
 /// `write_tum` wrote gives the same path bit for bit; one within QUATERNION_LENGTH_TOLERANCE is
 /// normalised. Signs of quaternions are kept as written.
-/// @throws InputError naming file, line and remedy: not a number, NaN or infinity, a coordinate above
-///         `LARGEST_COORDINATE`, wrong number of columns,
-///         time not strictly increasing, quaternion not of unit length, no pose at all, unreadable file
+/// @throws InputError naming file, line and remedy: not a number, NaN or infinity, a coordinate
+///         above `LARGEST_COORDINATE`, wrong number of columns, time not strictly increasing,
+///         quaternion not of unit length, no pose at all, unreadable file
 Path read_tum(const std::filesystem::path& file);
 
 /// The same from text; `name` stands for the file in messages.
@@ -35,13 +35,13 @@ Path read_tum(std::istream& stream, const std::string& name);
 
 /// Text of a TUM trajectory.
 /// @param comment  lines written first, each behind "# "; may be empty
-/// @param decimals digits behind the point; unset: the shortest text that reads back to the same bits
+/// @param decimals digits after the point; unset: the shortest text that reads back the same bits
 /// @throws std::invalid_argument when the path could not be read back (empty, not finite, time
 ///         not increasing, quaternion not of unit length)
 std::string tum_text(const Path& path, const std::string& comment = "",
                      std::optional<int> decimals = std::nullopt);
 
-/// Writes `tum_text` to a file, atomically (`write_file_atomically`): an earlier file stays whole until then.
+/// Writes `tum_text` to a file in one step (`write_file_atomically`): all of it or nothing.
 /// @throws EnvironmentError when the file cannot be written; std::invalid_argument as `tum_text`
 void write_tum(const std::filesystem::path& file, const Path& path, const std::string& comment = "",
                std::optional<int> decimals = std::nullopt);

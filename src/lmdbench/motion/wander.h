@@ -15,11 +15,11 @@ namespace lmdbench {
 /// A uniformly distributed rotation (Shoemake 1992).
 Eigen::Quaterniond uniform_rotation(std::mt19937_64& generator);
 
-/// A slow, smooth, seemingly aimless turning: an angular velocity whose components are sums of sines with
-/// random frequencies and phases.
+/// A slow, smooth, seemingly aimless turning: each component of its angular velocity is a sum of
+/// sines with random frequencies and phases.
 class Wander {
  public:
-  static constexpr double LOWEST_FREQUENCY = 0.05;   ///< Hz; with the highest one: turns that last seconds
+  static constexpr double LOWEST_FREQUENCY = 0.05;   ///< Hz; with the highest: turns of seconds
   static constexpr double HIGHEST_FREQUENCY = 0.30;  ///< Hz
 
   /// @param rate root mean square of the angular velocity's length [rad/s]

@@ -64,7 +64,7 @@ AxisModel make_axis_model(const DeviceDynamics& dynamics) {
   const AxisState v_hand = grip ? row({{HAND_VELOCITY, 1.0}}) : v;
   const AxisState u = row({{PATH_VELOCITY, 1.0}});
 
-  // Forces as linear functions of the state: on the hand's mass from the person, on the device from the grip.
+  // Forces, linear in the state: of the person on the hand's mass, of the grip on the device.
   const AxisState person = -hand.stiffness_n_per_m * y_hand - hand.damping_n_s_per_m * (v_hand - u);
   const AxisState through_grip =
       -hand.grip_stiffness_n_per_m * (y - y_hand) - hand.grip_damping_n_s_per_m * (v - v_hand);

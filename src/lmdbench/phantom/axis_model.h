@@ -11,18 +11,18 @@
 #include <cstdint>
 #include <optional>
 
-/// One axis of the device with the hand on it, as linear differential equations with constant inputs.
+/// One axis of the device with the hand on it: linear differential equations, constant inputs.
 ///
 /// Rigid hand (its mass and the device's are one, M = m + m_h; all of it 0 without a hand):
 ///   M v' = F + P + C - b v - k_h y - b_h (v - u)
 /// Hand with a grip:
 ///   m v' = F + P + C - b v - k_g (y - y_h) - b_g (v - v_h)
 ///   m_h v_h' = -k_h y_h - b_h (v_h - u) + k_g (y - y_h) + b_g (v - v_h)
-/// y and y_h are positions relative to the meant path, which moves with u between two servo ticks: y' = v -
-/// u. Positions relative to the path keep the springs' energies free of cancellation far from the origin.
+/// y and y_h are positions relative to the meant path, which moves with u between two servo ticks:
+/// y' = v - u. This keeps the springs' energies free of cancellation far from the origin.
 namespace lmdbench {
 
-/// What the device is made of, the same along each axis.
+/// Properties of the device, the same along each axis.
 struct DeviceDynamics {
   double mass_kg = 0.0;            ///< Apparent mass at the stylus.
   double damping_n_s_per_m = 0.0;  ///< Viscous, against the ground.
@@ -30,7 +30,7 @@ struct DeviceDynamics {
   std::optional<Hand> hand;
 };
 
-/// Places of the state vector. The last four are inputs: constant until somebody changes them.
+/// Places of the state vector. The last four are inputs, constant until they are set anew.
 enum class AxisSlot : std::uint8_t {
   POSITION,        ///< y: of the device, relative to the meant path [m].
   VELOCITY,        ///< v: of the device [m/s].
@@ -97,8 +97,8 @@ struct AxisModel {
   }
 };
 
-/// @throws UsageError for a mass that is not positive, or a damping, friction or hand figure that is negative
-/// or not finite, naming it
+/// @throws UsageError naming a mass that is not positive, or a damping, friction or hand figure
+///   that is negative or not finite
 AxisModel make_axis_model(const DeviceDynamics& dynamics);
 
 }  // namespace lmdbench

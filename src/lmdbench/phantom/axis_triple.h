@@ -19,27 +19,27 @@ struct EnergyAccount {
   double hand = 0.0;      ///< Work of the person who moves the hand.
   double damped = 0.0;    ///< Lost in dampers.
   double friction = 0.0;  ///< Lost to Coulomb friction.
-  double moved = 0.0;     ///< Sum of the lengths of all energies that flowed in any tick.
+  double moved = 0.0;     ///< Sum of the absolute energies that flowed in any period.
 
-  /// What the equations leave over: 0 but for rounding. Kinetic and spring energy are 0 at the start, where
-  /// the device rests on the meant path.
+  /// Residual of the equations: 0 except for rounding. Kinetic and spring energy are 0 at the
+  /// start, where the device rests on the meant path.
   double residual() const { return rendered + push + hand - damped - friction - kinetic - spring; }
 
-  /// Length of the residual as a share of the energy that moved; 0 where none has.
+  /// Absolute residual as a share of the energy that moved; 0 where none has.
   double balance_error() const { return moved > 0.0 ? std::abs(residual()) / moved : 0.0; }
 
   EnergyAccount& operator+=(const EnergyAccount& other);
 };
 
-/// Three equal, independent axes of a device (friction acts in joints, so each has its own), which start at rest. Units are those of
-/// translation: metres, kilograms, newtons. For turns read radians, kg m^2, N m (simulated_device.h).
+/// Three equal, independent axes of a device (friction acts in joints, so each has its own), at
+/// rest at first. In metres, kilograms, newtons; for turns rad, kg m^2, N m (simulated_device.h).
 class AxisTriple {
  public:
   /// @param push    constant force, by axis
   /// @param period  servo period [s]
   AxisTriple(const DeviceDynamics& dynamics, double period, const Vec3& push);
 
-  /// One servo period with this force rendered all along.
+  /// One servo period with this force rendered throughout.
   /// @param path_velocity  of the meant path, by axis
   void advance(const Vec3& rendered, const Vec3& path_velocity);
 

@@ -16,7 +16,7 @@ constexpr std::string_view SURVEY = "survey of the makers' data sheets (secondar
 constexpr std::string_view CHAI3D = "CHAI3D, src/devices/CPhantomDevices.cpp";
 constexpr double NO_LIMIT = std::numeric_limits<double>::infinity();
 
-/// The only damping of a PHANTOM at hand; the other devices' mechanisms are taken to be as free.
+/// The only known damping of a PHANTOM; the other devices' mechanisms are assumed to have the same.
 constexpr DeviceFigure MECHANISM_DAMPING = {
     0.005, "N s/m", "Diolaiti et al., T-RO 22(2), 2006, of a PHANToM 1.0, not re-read", Trust::FROM_MEMORY};
 
@@ -38,12 +38,12 @@ constexpr DeviceFigure unknown(std::string_view unit) {
   return {std::numeric_limits<double>::quiet_NaN(), unit, "", Trust::UNKNOWN};
 }
 
-// The Desktop's figures are its successor Touch X's where the survey gives only that name, the Omni's the
-// Touch's. Sources and their trust are a field of each figure; the masses given as upper bounds are marked.
+// Figures of the Desktop are those of its successor Touch X where the survey has only that name,
+// the Omni's those of the Touch. Each has its source and trust; upper bounds of masses are marked.
 constexpr std::array<Device, 6> DEVICES = {{
     {
-        // Neither friction nor encoder counts nor a force limit: what theory speaks of. Mass and damping are those of the
-        // published stability boundary that the closed loop is held against.
+        // No friction, encoder counts or force limit: the device of theory. Mass and damping are
+        // those of the published stability boundary that the closed loop is compared with.
         .name = "ideal",
         .title = "ideal device",
         .maximum_force = defined(NO_LIMIT, "N"),
@@ -93,7 +93,7 @@ constexpr std::array<Device, 6> DEVICES = {{
         .position_resolution = recalled(0.03e-3, "m"),
         .stable_stiffness = chai3d(800.0, "N/m"),
         .stable_damping = chai3d(5.0, "N s/m"),
-        .apparent_mass = recalled(0.136, "kg"),  // an upper bound, the larger of two that are remembered
+        .apparent_mass = recalled(0.136, "kg"),  // an upper bound, the larger of two recalled
         .damping = MECHANISM_DAMPING,
         .friction = recalled(0.04, "N"),
         .torque = recalled(0.188, "N m"),

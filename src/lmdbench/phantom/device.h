@@ -10,9 +10,9 @@
 
 namespace lmdbench {
 
-/// How far a device figure can be relied on.
+/// Reliability of a device figure.
 enum class Trust : std::uint8_t {
-  STATED,  ///< Read in the source that is named, for this device or for its successor under the newer name.
+  STATED,       ///< Read in the named source, for this device or its renamed successor.
   FROM_MEMORY,  ///< Recalled, not re-read; good enough to start from, not to quote.
   DEFINED,      ///< True by definition: the ideal device's.
   UNKNOWN       ///< No figure was found: the value is NaN.
@@ -21,7 +21,7 @@ enum class Trust : std::uint8_t {
 /// "stated", "from memory", "defined" or "unknown".
 std::string_view to_string(Trust trust);
 
-/// One figure of a device with where it comes from.
+/// One figure of a device, with its source.
 struct DeviceFigure {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< in `unit`
   std::string_view unit;                                    ///< SI symbol
@@ -29,22 +29,21 @@ struct DeviceFigure {
   Trust trust = Trust::UNKNOWN;
 };
 
-/// A haptic device. All of them sense position and orientation and render a translational force, as in the
-/// paper's set-up (section 5); those with a figure for the torque can render that as well (`/loop/actuated`).
+/// A haptic device. All sense position and orientation and render a translational force (paper,
+/// section 5); those with a figure for the torque can render that as well (`/loop/actuated`).
 struct Device {
   std::string_view name;   ///< As written in experiments, e.g. "phantom-desktop".
   std::string_view title;  ///< As written in reports.
 
-  DeviceFigure maximum_force;        ///< Largest force, for moments [N]: what decision E10 clips to.
-  DeviceFigure continuous_force;     ///< Force that the motors stand for long [N].
+  DeviceFigure maximum_force;        ///< Largest force, for moments [N]: the limit of decision E10.
+  DeviceFigure continuous_force;     ///< Force that the motors can hold for long [N].
   DeviceFigure position_resolution;  ///< Nominal [m].
   DeviceFigure stable_stiffness;     ///< Largest stiffness that CHAI3D sets for it [N/m].
   DeviceFigure stable_damping;       ///< Largest damping that CHAI3D sets for it [N s/m].
   DeviceFigure apparent_mass;        ///< At the stylus [kg].
   DeviceFigure damping;              ///< Viscous damping of the mechanism [N s/m].
   DeviceFigure friction;             ///< Back-drive friction [N].
-  DeviceFigure
-      torque;  ///< Largest torque [N m] of the models that actuate it: the only figure published is the continuous one.
+  DeviceFigure torque;  ///< Largest torque [N m], if actuated; only a continuous one is published.
   std::array<DeviceFigure, 3> workspace;  ///< Width, height, depth [m].
 };
 

@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-/// Largest norm of A t for which the series of the integrals is summed: it then ends after a dozen terms.
+/// Largest norm of A t for which the integrals' series is summed: it ends after a dozen terms.
 constexpr double LARGEST_SERIES_NORM = 0.25;
 
 template <typename Scalar>
@@ -88,8 +88,7 @@ namespace {
 
 constexpr int LOOKS = 8;
 
-/// More events than this in one servo period are a device that shivers about zero within rounding: it is
-/// stuck.
+/// A device with more events in one servo period shivers about zero within rounding: it is stuck.
 constexpr int MOST_EVENTS = 64;
 
 }  // namespace
@@ -108,7 +107,7 @@ ExactIntegrator::Regime ExactIntegrator::make_regime(const AxisMatrix& matrix) c
 
 double ExactIntegrator::margin(const AxisState& state, bool stuck) const {
   if (stuck) return model_.friction_n - std::abs(model_.standing_force.dot(state));
-  // Friction points against the motion, so the product is positive until the velocity has changed its sign.
+  // Friction opposes the motion, so the product is positive until the velocity changes its sign.
   return -at(state, AxisSlot::VELOCITY) * at(state, AxisSlot::FRICTION_FORCE);
 }
 
@@ -125,7 +124,7 @@ std::optional<double> ExactIntegrator::event_time(const Regime& regime, const Ax
                  : AxisState(regime.one_look * there);
     const double margin_after = margin(there, stuck);
     if (margin_after < 0.0) {
-      // A device that has just turned back starts with velocity 0: then it has turned again at once.
+      // A device that has just turned back starts with velocity 0: it has turned again at once.
       if (!(margin_before > 0.0)) return before;
       const auto function = [&](double t) {
         return margin(axis_transition(regime.matrix, t) * state, stuck);

@@ -9,8 +9,8 @@
 namespace lmdbench {
 
 /// Exact solution of s' = A s over a stretch of time, with the energies that flow meanwhile:
-///   s(t) = transition s(0), energy of flow i = s(0)^T energy[i] s(0), energy[i] = int_0^t e^(A's) power[i]
-///   e^(As) ds.
+///   s(t) = transition s(0), energy of flow i = s(0)^T energy[i] s(0),
+///   energy[i] = int_0^t e^(A's) power[i] e^(As) ds.
 struct AxisFlow {
   AxisMatrix transition;
   std::array<AxisMatrix, ENERGY_FLOW_COUNT> energy;
@@ -22,25 +22,25 @@ struct AxisFlow {
 /// @param t seconds, at least 0
 AxisMatrix axis_transition(const AxisMatrix& matrix, double t);
 
-/// Transition by the matrix exponential; integrals by their power series over a short step, which is then
-/// doubled: P(2 t) = P(t) + e^(A't) P(t) e^(At). Van Loan's block exponential would lose digits to e^(-A t),
-/// which grows where damping is strong.
+/// Transition by the matrix exponential; integrals by their power series over a short step, then
+/// doubled: P(2 t) = P(t) + e^(A't) P(t) e^(At). Van Loan's block exponential would lose digits to
+/// e^(-A t), which grows where damping is strong.
 /// @param t seconds, at least 0
 AxisFlow axis_flow(const AxisMatrix& matrix, const std::array<AxisMatrix, ENERGY_FLOW_COUNT>& power,
                    double t);
 
-/// The same computed in extended precision and rounded once: for flows that are used in every servo period,
-/// whose errors would add up.
+/// The same in extended precision, rounded once: for flows of every servo period, whose errors add
+/// up.
 AxisFlow lasting_axis_flow(const AxisMatrix& matrix, const std::array<AxisMatrix, ENERGY_FLOW_COUNT>& power,
                            double t);
 
-/// Carries one axis from servo tick to servo tick, its inputs constant meanwhile (zero-order hold), exactly: by matrix exponentials between the events of Coulomb friction.
-///  1. A device at rest whose net force is within the friction stays stuck until the force has grown beyond
-///  it.
-///  2. A device that slips has the full friction against its motion until its velocity reaches zero; there it
-///     sticks or turns back, which the net force decides.
-/// The instant of an event is found to the last bits of the period by bracketing (TOMS 748) between eight
-/// looks a period: a velocity that dips below zero and returns within an eighth of the period goes unseen.
+/// Carries one axis over a servo period with constant inputs (zero-order hold), exactly: by matrix
+/// exponentials between the events of Coulomb friction.
+///  1. A device at rest whose net force is within the friction is stuck until the force exceeds it.
+///  2. A slipping device has the full friction against its motion until its velocity is zero;
+///     there the net force decides whether it sticks or turns back.
+/// Bracketing (TOMS 748) between eight points a period finds an event to the last bits of the
+/// period: a velocity that dips below zero and returns within an eighth of it goes unseen.
 class ExactIntegrator {
  public:
   /// @param period servo period [s]
@@ -58,12 +58,12 @@ class ExactIntegrator {
   };
 
   Regime make_regime(const AxisMatrix& matrix) const;
-  /// What is positive while the regime lasts.
+  /// Positive while the regime lasts.
   double margin(const AxisState& state, bool stuck) const;
-  /// When the regime ends within `duration`, just behind its end; nothing where it lasts.
+  /// End of the regime within `duration`, from just behind it; nothing where it lasts.
   std::optional<double> event_time(const Regime& regime, const AxisState& state, bool stuck,
                                    double duration) const;
-  /// Puts the friction force of the present motion into the state. @return whether the device is stuck
+  /// Sets the friction force of the present motion. @return whether the device is stuck
   bool settle_friction(AxisState& state) const;
 
   AxisModel model_;

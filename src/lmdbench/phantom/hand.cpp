@@ -17,7 +17,7 @@ Hand hand(const char* name, double mass, double damping, double stiffness, doubl
   return {name, mass, damping, stiffness, grip_damping, grip_stiffness};
 }
 
-/// Arms differ a hundredfold between publications; none of them is the average person.
+/// Arms differ a hundredfold between publications; none is the average person.
 const std::array<KnownHand, 5>& hands() {
   static const std::array<KnownHand, 5> table{{
       {hand("postural-arm", 0.554, 6.45, 135.0), "Scientific Reports 5:18004 (2015), figure 3, one trial",

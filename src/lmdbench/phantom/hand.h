@@ -10,11 +10,11 @@
 
 namespace lmdbench {
 
-/// A hand or arm on the device: a mass on a spring and a damper whose other ends follow the path that the
-/// person means to take. Without a grip it is rigidly attached to the device; with one, a second spring and
-/// damper lie between its mass and the device. The same in every direction.
+/// A hand or arm on the device: a mass on a spring and a damper whose other ends follow the path
+/// that the person intends. Without a grip it is rigidly attached to the device; with one, a second
+/// spring and damper are between them. The same in every direction.
 struct Hand {
-  std::string name;  ///< As written in experiments; "custom" for one given by its figures.
+  std::string name;  ///< As written in experiments; "custom" for one with own figures.
   double mass_kg = 0.0;
   double damping_n_s_per_m = 0.0;       ///< Between its mass and the meant path.
   double stiffness_n_per_m = 0.0;       ///< Between its mass and the meant path.

@@ -9,7 +9,7 @@
 namespace lmdbench {
 namespace {
 
-/// Heavy enough for a force of newtons to change its speed by less than a rounding error in a second.
+/// A force of newtons changes the speed of this mass by less than a rounding error in a second.
 constexpr double IMMOVABLE_KG = 1e12;
 
 }  // namespace

@@ -34,7 +34,7 @@ Vec3 SimulatedDevice::sensed_position() const {
 
 namespace {
 
-/// Below this angle the Jacobian's second coefficient is taken from its series, whose next term is then under 1e-15.
+/// Below this angle the Jacobian's second coefficient is a series; its next term is under 1e-15.
 constexpr double SERIES_ANGLE = 0.05;
 
 /// (x - sin x) / x^3

@@ -9,8 +9,8 @@
 
 namespace lmdbench {
 
-/// The device's place, which hand, push and rendered force move between servo ticks: three equal, independent axes along the world's.
-/// How it turns, where it actuates torque, is simulated_device.h's.
+/// The device's position, which hand, push and rendered force move between servo ticks: three
+/// equal, independent axes along the world's. SimulatedGimbal turns it where it actuates torque.
 class SimulatedDevice {
  public:
   /// Starts at rest.
@@ -21,13 +21,13 @@ class SimulatedDevice {
   SimulatedDevice(const DeviceDynamics& dynamics, double period, const Vec3& start_W, const Vec3& push_W,
                   double resolution);
 
-  /// One servo period with this force rendered all along (zero-order hold), while the meant path goes
-  /// straight to its next position. Without a hand nothing is drawn along the path.
+  /// One servo period with this force rendered throughout (zero-order hold), while the meant path
+  /// goes straight to its next position. Without a hand the path has no effect.
   void advance(const Vec3& rendered_W, const Vec3& next_path_position_W);
 
   Vec3 position() const { return path_position_W_ + axes_.offset(); }  ///< True position [m].
   Vec3 velocity() const { return axes_.velocity(); }                   ///< [m/s]
-  Vec3 sensed_position() const;  ///< What the encoders tell: each axis rounded to the resolution [m].
+  Vec3 sensed_position() const;  ///< From the encoders: each axis rounded to the resolution [m].
   EnergyAccount energy() const { return axes_.energy(); }
 
   /// A blow: changes the velocity at once, as work of the push.
@@ -41,24 +41,24 @@ class SimulatedDevice {
   double resolution_;
 };
 
-/// The turning half of a device that actuates torque: hand, friction and rendered torque move its orientation between servo ticks.
+/// Orientation of a device that actuates torque: hand, friction and torque turn it between ticks.
 ///
-/// Model, ours: a gimbal whose three joint coordinates are the components of the rotation vector y by which the device is turned
-/// from the meant path's orientation, R = exp(y) R_path, each an axis as in axis_model.h with an inertia for the mass. So the
-/// equations stay linear, their solution exact and the energies closed, as in translation. Against a rigid body of that inertia this is
-/// exact for turns about one axis; otherwise second order in y, which the hand's spring keeps small: without a hand, beyond half a turn from the start,
-/// it is a gimbal and no free body.
+/// Model, ours: a gimbal whose joint coordinates are the components of the rotation vector y from
+/// the meant path's orientation, R = exp(y) R_path, each an axis of axis_model.h with an inertia as
+/// mass: linear equations, exact solution, closed energies. Against a rigid body of that inertia
+/// this is exact for turns about one axis, else second order in y, which the hand's spring keeps
+/// small. Without a hand, beyond half a turn, it is a gimbal, no free body.
 ///
-/// The rendered torque t drives the coordinates by what does the same work, J(y)^T t with the angular velocity w = J(y) y', so a contact
-/// that conserves energy in the world conserves it here at any y. The meant path turns between ticks at a constant rate.
+/// The rendered torque t acts as J(y)^T t, of the same work (angular velocity w = J(y) y'): what
+/// conserves energy in the world does so here. The path turns at a constant rate between ticks.
 
-/// What a torque in the world is on the coordinates y: J(y)^T torque, J the left Jacobian of the rotation vector.
+/// A world torque on the coordinates y: J(y)^T torque, J the left Jacobian of the rotation vector.
 Vec3 generalised_torque(const Vec3& rotation_vector, const Vec3& torque_W);
 
 class SimulatedGimbal {
  public:
   /// Starts at rest.
-  /// @param dynamics    inertia in the place of mass [kg m^2], damping [N m s], friction [N m], hand likewise
+  /// @param dynamics    inertia as mass [kg m^2], damping [N m s], friction [N m], hand likewise
   /// @param start       orientation R_WM, also of the meant path
   /// @param push_W      constant torque on the coordinates [N m]
   /// @param resolution  of the encoders [rad]; 0: exact
@@ -66,12 +66,12 @@ class SimulatedGimbal {
   SimulatedGimbal(const DeviceDynamics& dynamics, double period, const Eigen::Quaterniond& start,
                   const Vec3& push_W, double resolution);
 
-  /// One servo period with this torque rendered all along, while the meant path turns to its next orientation.
-  /// Without a hand nothing is drawn along the path.
+  /// One servo period with this torque rendered throughout, while the meant path turns to its next
+  /// orientation. Without a hand the path has no effect.
   void advance(const Vec3& torque_W, const Eigen::Quaterniond& next_path_orientation);
 
   Eigen::Quaterniond orientation() const;  ///< True R_WM.
-  /// What the encoders tell: the rotation vector from the start, each component rounded to the resolution.
+  /// From the encoders: rotation vector from the start, each component rounded to the resolution.
   Eigen::Quaterniond sensed_orientation() const;
   Vec3 offset() const { return axes_.offset(); }  ///< y [rad]
   Vec3 angular_velocity() const {

@@ -22,14 +22,14 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Looks at the unit circle between 0 and half a turn: evenly, and evenly in the logarithm from the slowest
-/// oscillation that is looked for.
+/// Points of the search on the unit circle from 0 to half a turn: even ones, and logarithmically
+/// even ones from the slowest oscillation on.
 constexpr int EVEN_LOOKS = 4096;
 constexpr int LOOKS_A_DELAYED_FRAME = 64;  ///< Each delayed frame turns H by half a turn more.
 constexpr int LOGARITHMIC_LOOKS = 4096;
 constexpr double SLOWEST_ANGLE = 1e-8;  ///< [rad] a servo period: one oscillation in 10^9 frames.
 
-/// A sampled axis: s_(n+1) = phi s_n + gamma F_n; the contact sees lever * s[0] and pushes with F lever.
+/// Sampled axis: s_(n+1) = phi s_n + gamma F_n; the contact sees lever * s[0], pushes with F lever.
 struct SampledAxis {
   Eigen::MatrixXd phi;
   Eigen::VectorXd gamma;
@@ -123,8 +123,8 @@ double spectral_radius(const SampledLoop& loop, double stiffness) {
   for (const SampledAxis& axis : axes) size += axis.phi.rows();
   const Eigen::Index delay = loop.delay_frames;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size + delay, size + delay);
-  Eigen::VectorXd touched = Eigen::VectorXd::Zero(size);  // how far the contact is pressed, by state
-  Eigen::VectorXd pushed = Eigen::VectorXd::Zero(size);   // what a force does to the state
+  Eigen::VectorXd touched = Eigen::VectorXd::Zero(size);  // depth of the contact, by state
+  Eigen::VectorXd pushed = Eigen::VectorXd::Zero(size);   // effect of a force on the state
   Eigen::Index first = 0;
   for (const SampledAxis& axis : axes) {
     const Eigen::Index rows = axis.phi.rows();
@@ -159,7 +159,7 @@ double critical_stiffness_without_delay(double mass_kg, double damping_n_s_per_m
   const double b = damping_n_s_per_m;
   const double x = b * period_s / mass_kg;
   const double one_minus_a = -std::expm1(-x);
-  // 1 - a - a x = e^-x (e^x - 1 - x), which loses its digits where damping is weak: there the series of e^x.
+  // 1 - a - a x = e^-x (e^x - 1 - x) loses its digits for weak damping: there the series of e^x.
   double remainder = 0.0;
   if (x < 0.5) {
     double term = x * x / 2.0;
@@ -174,8 +174,8 @@ double critical_stiffness_without_delay(double mass_kg, double damping_n_s_per_m
   const double a = std::exp(-x);
   const double at_minus_one =
       2.0 * b * b * (1.0 + a) / (b * period_s * (1.0 + a) - 2.0 * mass_kg * one_minus_a);
-  // The difference in its denominator is positive, tanh(x/2) < x/2, and vanishes to third order: no boundary
-  // there.
+  // The difference in its denominator is positive, tanh(x/2) < x/2, and vanishes to third order:
+  // there is no boundary then.
   return at_minus_one > 0.0 ? std::min(complex_pair, at_minus_one) : complex_pair;
 }
 

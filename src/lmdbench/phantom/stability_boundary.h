@@ -7,23 +7,23 @@
 #include <cstdint>
 #include <optional>
 
-/// The exact stability boundary of the sampled loop: the device of `axis_model.h` against a wall of stiffness
-/// K whose force is held for a servo period T and arrives `delay_frames` periods late. Coulomb friction and
-/// quantisation are left out: the boundary is the linear loop's.
+/// The exact stability boundary of the sampled loop: the device of `axis_model.h` against a wall of
+/// stiffness K whose force is held for a servo period T and arrives `delay_frames` periods late.
+/// The loop is linear: no Coulomb friction, no quantisation.
 ///
-/// With s_(n+1) = Phi s_n + Gamma F_n (matrix exponential) and F_n = -K x_(n-d), the loop is stable while
-/// every eigenvalue of
+/// With s_(n+1) = Phi s_n + Gamma F_n (matrix exponential) and F_n = -K x_(n-d), the loop is stable
+/// if every eigenvalue of
 ///   [ Phi s + Gamma f_d ; f_1 = -K x, f_2 = f_1 of the period before, ... ]
-/// lies within the unit circle. A wall of vanishing stiffness is stable, so the critical stiffness is the
-/// least K > 0 for which an eigenvalue lies on the circle, z = e^(i theta): there 1 + K H(z) = 0 with H(z) =
-/// z^-d C (z I - Phi)^-1 Gamma, so H is real and negative and K = -1 / H. Every theta in (0, pi] with a real
-/// negative H is bracketed and solved for; the least K of them is the boundary.
+/// is within the unit circle. A wall of vanishing stiffness is stable, so the critical stiffness is
+/// the least K > 0 with an eigenvalue on the circle, z = e^(i theta): there 1 + K H(z) = 0 with
+/// H(z) = z^-d C (z I - Phi)^-1 Gamma, so H is real and negative and K = -1 / H. Every theta in (0,
+/// pi] with a real negative H is bracketed and solved for; the least of their K is the boundary.
 namespace lmdbench {
 
-/// A device that turns as well and is touched off its centre: the contact sees the point's motion, x + lever_m angle, so the device's
-/// response to the held force is the sum H(z) = H_translation(z) + lever_m^2 H_rotation(z), and all else is as above.
+/// A device that also turns and is touched off its centre. The contact sees the point's motion, x +
+/// lever_m angle: the response to the force is H(z) = H_translation(z) + lever_m^2 H_rotation(z).
 struct SampledTurn {
-  DeviceDynamics dynamics;  ///< Inertia [kg m^2] in the place of mass, damping [N m s], hand likewise.
+  DeviceDynamics dynamics;  ///< Inertia [kg m^2] as mass, damping [N m s], hand likewise.
   double lever_m = 0.0;     ///< From the device's centre to the line of the contact's force.
 };
 
@@ -34,23 +34,23 @@ struct SampledLoop {
   std::optional<SampledTurn> turn = std::nullopt;
 };
 
-/// Least stiffness [N/m] at which an eigenvalue reaches the unit circle. Infinity where none does for any
-/// stiffness; 0 where the translation or a rotation with a lever has no damping at all, which we take to diverge at every stiffness.
-/// @throws UsageError as `make_axis_model`, or for a period that is not positive or a negative delay
+/// Least stiffness [N/m] at which an eigenvalue reaches the unit circle; infinity without one. 0 if
+/// the translation or a rotation with a lever has no damping: taken to diverge at any stiffness.
+/// @throws UsageError as `make_axis_model`, or for a period of 0 or less or a negative delay
 double critical_stiffness(const SampledLoop& loop);
 
-/// Largest modulus of the loop's eigenvalues at stiffness K [N/m], without those that the wall cannot reach
-/// (hand's path).
+/// Largest modulus of the loop's eigenvalues at stiffness K [N/m], without those that the wall
+/// cannot change (the hand's path).
 double spectral_radius(const SampledLoop& loop, double stiffness);
 
-/// The known sufficient bound b / (T/2 + t_d) [N/m] with all damping of device and hand (Gil et al. 2007;
-/// Colgate's condition K < 2 b / T for no delay). A hand behind a grip does not count: its damping is not at
-/// the device. With a turn it is the damping of the point touched, 1 / (1 / b + lever_m^2 / b_rotation).
+/// The known sufficient bound b / (T/2 + t_d) [N/m] with all damping of device and hand (Gil et al.
+/// 2007; Colgate's condition K < 2 b / T without delay). Damping of a hand behind a grip, not at
+/// the device, does not count. With a turn: the point's, 1 / (1 / b + lever_m^2 / b_rotation).
 double sufficient_stiffness(const SampledLoop& loop);
 
-/// Closed form without hand and delay, where the loop's pair of complex eigenvalues reaches the circle before
-/// a real eigenvalue reaches -1: K = b^2 (1 - a) / (m (1 - a - a b T / m)), a = e^(-b T / m). The other
-/// crossing is at K = 2 b^2 (1 + a) / (b T (1 + a) - 2 m (1 - a)); the lesser of the two is the boundary.
+/// Closed form without hand and delay, where the pair of complex eigenvalues reaches the circle
+/// before a real one reaches -1: K = b^2 (1 - a) / (m (1 - a - a b T / m)), a = e^(-b T / m). The
+/// other is at K = 2 b^2 (1 + a) / (b T (1 + a) - 2 m (1 - a)); the lesser is the boundary.
 double critical_stiffness_without_delay(double mass_kg, double damping_n_s_per_m, double period_s);
 
 }  // namespace lmdbench

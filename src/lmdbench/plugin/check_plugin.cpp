@@ -29,7 +29,7 @@ using Verdict = PluginFinding::Verdict;
 using Clock = std::chrono::steady_clock;
 
 constexpr int POSES = 16;
-/// What a set of scenes may take [s]; a method that is slower is put to fewer poses.
+/// Time for a set of scenes [s]; a slower method gets fewer poses.
 constexpr double BUDGET = 40.0;
 
 struct CheckScene {
@@ -49,7 +49,7 @@ Scene scene_of(const TriangleMesh& a, const TriangleMesh& b, double cutoff) {
   return {body("a", a), {body("b", b)}, cutoff};
 }
 
-/// Poses that come nearer from all sides until the meshes are within half the cutoff; every fourth one goes on into the other mesh.
+/// Poses that come nearer from all sides, to half the cutoff; every fourth enters the other mesh.
 std::vector<Pose> poses_of(const CheckScene& scene, std::mt19937& random) {
   std::normal_distribution<double> normal;
   const double far = bounding_box_diagonal(scene.a) + bounding_box_diagonal(scene.b);
@@ -85,7 +85,7 @@ std::vector<CheckScene> check_scenes() {
   return scenes;
 }
 
-/// The same surface, counted otherwise.
+/// The same surface with another numbering.
 TriangleMesh scrambled(const TriangleMesh& mesh, std::mt19937& random) {
   std::vector<std::int32_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -115,7 +115,7 @@ bool same_points(const LmdSet& a, LmdSet b, double tolerance) {
   });
 }
 
-/// What a method says of a pose.
+/// A method's answer for a pose.
 struct Answer {
   LmdSet set;
   std::optional<OwnWrench> own;
@@ -129,8 +129,8 @@ bool same_bits(const Answer& a, const Answer& b) {
          (!a.own || (a.own->force == b.own->force && a.own->torque == b.own->torque));
 }
 
-/// Of two that mean the same.
-/// @param reach of torques [m]
+/// Whether two forces agree.
+/// @param reach lever of torques [m]
 bool same_force(const Answer& a, const Answer& b, double reach) {
   constexpr double SINGLE_PRECISION = 1e-4;  // of the larger force
   if (!a.own) return true;
@@ -139,7 +139,7 @@ bool same_force(const Answer& a, const Answer& b, double reach) {
          (a.own->torque_about(Vec3::Zero()) - b.own->torque_about(Vec3::Zero())).norm() <= reach * allowed;
 }
 
-/// What one method left over all scenes.
+/// What one method did over all scenes.
 class MethodCheck {
  public:
   explicit MethodCheck(const MethodDescription& method) : method_(method) {}

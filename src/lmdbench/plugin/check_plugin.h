@@ -8,7 +8,7 @@
 
 namespace lmdbench {
 
-/// One question to a method from outside.
+/// One question to a plugin's method, and the answer.
 struct PluginFinding {
   enum class Verdict { PASSED, NOTED, FAILED };
   std::string method;
@@ -17,17 +17,17 @@ struct PluginFinding {
   std::string answer;
 };
 
-/// Puts a plugin's methods, in processes of their own, to scenes that this program makes (shapes round, dented and flat; apart, near and
-/// through each other), in less than a minute:
+/// Runs a plugin's methods, each in its own process, on made scenes (round, dented and flat shapes;
+/// apart, near and intersecting), in less than a minute. The questions:
 ///
-/// 1. does it answer every pose, with points that are on the meshes, no pair twice, nearest first, with a force where
-///    it has its own;
-/// 2. does it leave rounding and flush-to-zero as they were;
-/// 3. are its contacts, and its own force, the same when the poses come again, backwards and shuffled, and from a new instance;
-/// 4. are they when vertices, triangles and corners are counted in another order, and when the moving mesh has another frame;
-/// 5. does it keep its promise against exhaustive truth, and what does it miss where it makes none;
-/// 6. how long does a pose take in the plugin, and the way to its process and back.
-/// @throws InputError where it cannot be loaded
+/// 1. does it answer every pose: points on the meshes, no pair twice, nearest first, and a force
+///    where it has its own;
+/// 2. does it leave rounding and flush-to-zero unchanged;
+/// 3. are contacts and force the same for repeated, reversed, shuffled poses and a new instance;
+/// 4. and for renumbered vertices, triangles, corners, and another frame of the moving mesh;
+/// 5. does it keep its promise against exhaustive truth, and what does it miss without one;
+/// 6. how long does a pose take in the plugin, and the exchange with its process.
+/// @throws InputError where the plugin cannot be loaded
 std::vector<PluginFinding> check_plugin(const std::filesystem::path& file);
 
 }  // namespace lmdbench

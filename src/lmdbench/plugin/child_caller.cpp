@@ -31,9 +31,9 @@ extern char** environ;
 namespace lmdbench {
 namespace {
 
-/// How often a plugin is started anew after a call that was lost.
+/// How often a plugin is started anew after a lost call.
 constexpr int RESTARTS = 3;
-/// Preparing two meshes may take this many times what a search may.
+/// Preparing two meshes may take so many times the limit of a search.
 constexpr int PREPARING_FACTOR = 30;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -48,7 +48,7 @@ constexpr bool LIMITS_MEMORY = true;
                          "check the limits on processes, files and memory (ulimit -a)");
 }
 
-/// Beside the program, or in libexec/lmdbench beside its folder.
+/// In the program's folder, or in libexec/lmdbench next to that folder.
 std::string child_program() {
   std::error_code none;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
@@ -83,7 +83,7 @@ class Child {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) refuse(errno);
     socket_ = FileDescriptor(ends[0]);
-    // Numbers that the child's own cannot be: what dup2 puts there first must not be what comes next.
+    // High numbers: the child's dup2 to the low ones must not overwrite what it copies next.
     const FileDescriptor child_end(::fcntl(ends[1], F_DUPFD_CLOEXEC, 16));
     ::close(ends[1]);
     const FileDescriptor meshes_end(::fcntl(meshes, F_DUPFD_CLOEXEC, 16)),
@@ -113,7 +113,7 @@ class Child {
     return ::send(socket_.get(), &request, sizeof(request), MSG_NOSIGNAL) == sizeof(request);
   }
 
-  /// @return empty, or why there is no answer; then the child is gone
+  /// @return empty, or why there is no answer; then the child has ended
   std::string receive(wire::Answer& answer, double seconds) {
     using Clock = std::chrono::steady_clock;
     const auto until =
@@ -136,18 +136,18 @@ class Child {
     }
   }
 
-  /// Waits for one that comes to its end by itself.
+  /// Waits for a child that ends by itself.
   std::string wait(double seconds) {
     wire::Answer none;
     return receive(none, seconds);
   }
 
  private:
-  /// Ends it, where it has not ended.
+  /// Ends the child if it still runs.
   /// @return how it ended, in words
   std::string end() {
     if (pid_ < 0) return {};
-    // One that closed the socket is about to end: what it ends of is worth waiting for.
+    // A child that closed the socket is about to end: its exit status is worth waiting for.
     int status = 0;
     pid_t gone = 0;
     for (int i = 0; i < 50 && (gone = ::waitpid(pid_, &status, WNOHANG)) == 0; ++i) ::usleep(1000);
@@ -176,7 +176,7 @@ class ChildCaller : public PluginCaller {
     if (::ftruncate(contacts_.get(), wire::CONTACT_BYTES) != 0) refuse(errno);
     void* memory = ::mmap(nullptr, wire::CONTACT_BYTES, PROT_READ, MAP_SHARED, contacts_.get(), 0);
     if (memory == MAP_FAILED) refuse(errno);
-    // Who makes the memory smaller would end this program at its next look.
+    // A child that made the memory smaller would crash this program at its next read.
     ::fcntl(contacts_.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
     shared_ = static_cast<const lmdbench_contact*>(memory);
     static_cast<void>(start());
@@ -192,7 +192,7 @@ class ChildCaller : public PluginCaller {
     wire::Request request{++number_, {}};
     std::copy_n(X_BA, request.X_BA.size(), request.X_BA.begin());
     wire::Answer received;
-    static_cast<void>(child_->send(request));  // One that is gone shows when its answer is waited for.
+    static_cast<void>(child_->send(request));  // Shows below if it fails.
     std::string lost = child_->receive(received, static_cast<double>(limit_of(Limit::PLUGIN_SECONDS)));
     if (lost.empty() && received.number != number_) lost = "answered what it was not asked";
     if (!lost.empty()) {
@@ -206,7 +206,7 @@ class ChildCaller : public PluginCaller {
   }
 
  private:
-  /// @return whether there is a child that has prepared; else `why_not_`
+  /// @return whether a child is ready; else `why_not_` tells
   bool start() {
     if (starts_++ > RESTARTS) return false;
     child_ = std::make_unique<Child>(file_, false, meshes_.get(), contacts_.get());
@@ -219,7 +219,7 @@ class ChildCaller : public PluginCaller {
     }
     answer.message.back() = '\0';
     why_not_ = "preparing: " + (lost.empty() ? std::string(answer.message.data()) : lost);
-    if (lost.empty()) starts_ = RESTARTS + 1;  // It said no, and would again.
+    if (lost.empty()) starts_ = RESTARTS + 1;  // It refused, and would again.
     child_.reset();
     return false;
   }
@@ -236,7 +236,7 @@ class ChildCaller : public PluginCaller {
     for (const TriangleMesh* mesh : {&a, &b})
       append(meshes_, mesh->triangles.data(), mesh->triangles.size() * sizeof(mesh->triangles.front()));
     append(meshes_, task.options.c_str(), task.options.size() + 1);
-    // The next child must find them as they are.
+    // The next child must find the meshes unchanged.
     ::fcntl(meshes_.get(), F_ADD_SEALS, F_SEAL_WRITE | F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
   }
 

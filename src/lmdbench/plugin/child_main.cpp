@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The process that a plugin runs in. `lmdbench-plugin-child PARENT BYTES FILE describe` writes what the plugin says of itself as
-// JSON to the contacts' memory; without `describe` it makes the method of the task and answers poses (wire.h) until nobody asks any
-// more. It ends with the program that started it, holds none of its files, and may take BYTES of memory.
+// The process of a plugin. `lmdbench-plugin-child PARENT BYTES FILE describe` writes the plugin's
+// description as JSON to the contacts' memory; without `describe` it makes the task's method and
+// answers poses (wire.h) until the socket closes. It ends with its parent and has BYTES of memory.
 #include <lmdbench/plugin/loaded_plugin.h>
 #include <lmdbench/plugin/wire.h>
 
@@ -32,7 +32,7 @@ namespace {
 
 constexpr int NOBODY_ASKS = 0, BAD_CALL = 64, NO_MEMORY = 65;
 
-/// Room for contacts that ends where a page begins that nobody may touch: who writes past the end is ended there and then.
+/// Room for contacts that ends at a protected page: a write beyond the end crashes at once.
 class GuardedContacts {
  public:
   explicit GuardedContacts(std::uint64_t capacity) : capacity_(capacity) {
@@ -172,7 +172,7 @@ int main(int argc, char** argv) {
   }
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (std::to_string(::getppid()) != argv[1]) return NOBODY_ASKS;
-  // The program decides when it is over, also where a terminal sends its signals to both.
+  // The parent decides when to end, also where a terminal sends its signals to both.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   ::close_range(wire::FIRST_UNUSED, ~0U, 0);
   const rlimit none{0, 0};
@@ -182,6 +182,6 @@ int main(int argc, char** argv) {
     describe(argv[3]);
   else
     serve(argv[3]);
-  // What the plugin does at its end is its own matter.
+  // Skips the plugin's own destructors and exit handlers.
   ::_exit(NOBODY_ASKS);
 }

@@ -12,7 +12,7 @@
 namespace lmdbench {
 namespace {
 
-/// Contacts behind the plugin's room that must stay as they are.
+/// Contacts after the plugin's room; a change of them shows that it wrote beyond the end.
 constexpr std::size_t CANARIES = 16;
 constexpr int CANARY = 0xA5;
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int PARTS = 7;
 
-/// One mesh of a pair, to be asked about points of the other's frame.
+/// One mesh of a pair, which locates points given in B's frame.
 struct Side {
   const Surface& surface;
   double tolerance;  ///< [m]
@@ -36,7 +36,7 @@ struct Side {
     if (named >= 0 && named < PARTS && is_on(p_B, corners, static_cast<TriangleFeature>(named)))
       return Place{static_cast<TriangleFeature>(named), true};
     const bool knew_no_better = named == LMDBENCH_PART_UNKNOWN;
-    // The lowest part that is near enough: a face's point may be a rounding away from an edge's.
+    // The lowest part within the tolerance: rounding may move an edge's point into a face.
     for (int part = 0; part < PARTS; ++part)
       if (is_on(p_B, corners, static_cast<TriangleFeature>(part)))
         return Place{static_cast<TriangleFeature>(part), knew_no_better};
@@ -112,7 +112,7 @@ void ContactJudge::judge(std::span<const lmdbench_contact> contacts, const Rigid
     lmd.distance = (lmd.point_fixed - lmd.point_moving).norm();
     lmd.intersecting = lmd.distance == 0.0;
     if (lmd.distance > 0.0) lmd.direction = (lmd.point_fixed - lmd.point_moving) / lmd.distance;
-    // What is as near up to the points' tolerance may come in any order.
+    // Contacts equally near within the points' tolerance may come in any order.
     sorted = sorted && lmd.distance >= last - side_a.tolerance - side_b.tolerance;
     last = std::max(last, lmd.distance);
     lmds.push_back(lmd);

@@ -1,23 +1,23 @@
 /* SPDX-FileCopyrightText: The lmdbench authors
  * SPDX-License-Identifier: BSD-3-Clause
  *
- * The one header that a proximity method from outside is built against: C99, no dependency. A method is a shared
- * object that exports one constant, `lmdbench_method_entry`. `lmdbench plugin new FOLDER` writes a project to begin
- * with, `lmdbench plugin check FILE.so` says what lmdbench thinks of it, `lmdbench run ... --plugin FILE.so` measures it.
+ * The one header that a proximity method from outside needs: C99, no dependency. A method is a
+ * shared object with one exported constant, `lmdbench_method_entry`. `lmdbench plugin new FOLDER`
+ * writes a project, `plugin check FILE.so` checks it, `run ... --plugin FILE.so` measures it.
  *
- * A method sees two meshes, A and B, and a pose of A in B's frame, and returns contacts: pairs of points, one on each
- * mesh. Lengths are metres. B stands, A moves; forces are computed by lmdbench from the contacts, but for a method
- * that has its own (LMDBENCH_EXTENSION_FORCE).
+ * A method gets two meshes, A and B, and a pose of A in B's frame, and returns contacts: pairs of
+ * points, one on each mesh. Lengths are metres. B stands, A moves. lmdbench computes forces from
+ * the contacts, unless the method has its own (LMDBENCH_EXTENSION_FORCE).
  *
  * Who may call what, and when:
- *  - an instance is used by one thread at a time; several instances may be used by several threads at once;
- *  - memory belongs to whoever made it: meshes and options live until `create` returns, so copy what you keep;
- *  - nothing may be thrown out of a function; a function that cannot do its work returns a number other than 0;
- *  - floating-point rounding and flush-to-zero must be left as they were found (beware of -ffast-math when linking);
+ *  - one thread at a time uses an instance; several threads may use several instances at once;
+ *  - memory belongs to its maker: meshes and options live until `create` returns, so copy them;
+ *  - functions throw nothing; one that fails returns a number other than 0;
+ *  - rounding mode and flush-to-zero must stay unchanged (beware of -ffast-math when linking);
  *  - the same calls must give the same contacts, in every process.
  *
- * Versions: a structure only ever grows at its end, and says how large it is. A host takes every plugin of its own
- * ABI_MAJOR. What comes later and is no function of the structures is an extension, asked for by a name. */
+ * Versions: a structure only grows at its end, and contains its size. A host takes every plugin of
+ * its own ABI_MAJOR. Later additions that fit no structure are extensions, found by name. */
 #ifndef LMDBENCH_METHOD_H
 #define LMDBENCH_METHOD_H
 
@@ -30,10 +30,10 @@ extern "C" {
 #define LMDBENCH_METHOD_ABI_MAJOR 1
 #define LMDBENCH_METHOD_ABI_MINOR 1 /* 1: LMDBENCH_PROMISE_FORCE_ONLY, LMDBENCH_EXTENSION_FORCE */
 
-/* What the contacts of a pose are meant to be, and so how they are judged. Whoever promises the complete set and misses
- * one is disqualified for that promise, shown as such, and timed all the same. */
+/* What the contacts of a pose should be, and so how they are judged. A method that promises the
+ * complete set and misses a pair loses that promise, is shown so, and still is timed. */
 enum {
-  LMDBENCH_PROMISE_COMPLETE_SET = 0,  /* all local minimum distance pairs within the cutoff, and no other */
+  LMDBENCH_PROMISE_COMPLETE_SET = 0,  /* all local minimum distance pairs in the cutoff, no other */
   LMDBENCH_PROMISE_APPROXIMATION = 1, /* may miss some and report others: its error is reported */
   LMDBENCH_PROMISE_NEAREST_PAIR = 2,  /* the one nearest pair, with its true distance */
   LMDBENCH_PROMISE_FORCE_ONLY =
@@ -42,10 +42,10 @@ enum {
 
 /* Flags of a method. */
 enum {
-  LMDBENCH_KEEPS_FRAMES = 1 /* remembers earlier poses: then each pair of bodies has an instance of its own */
+  LMDBENCH_KEEPS_FRAMES = 1 /* remembers earlier poses: each pair of bodies needs an instance */
 };
 
-/* Which part of a triangle a point lies on: the lowest-dimensional one. Edge k joins the corners k and (k + 1) % 3. */
+/* The lowest-dimensional part of a triangle with a point. Edge k: corners k and (k + 1) % 3. */
 enum {
   LMDBENCH_CORNER_0 = 0,
   LMDBENCH_CORNER_1 = 1,
@@ -54,22 +54,22 @@ enum {
   LMDBENCH_EDGE_1 = 4,
   LMDBENCH_EDGE_2 = 5,
   LMDBENCH_FACE = 6,
-  LMDBENCH_PART_UNKNOWN = -1 /* the host looks where the point is */
+  LMDBENCH_PART_UNKNOWN = -1 /* the host finds the part */
 };
 
 typedef struct lmdbench_mesh {
   const double* vertices;   /* vertex_count rows x, y, z, in the mesh's own frame [m] */
-  const int32_t* triangles; /* triangle_count rows of vertex numbers, counter-clockwise seen from outside */
+  const int32_t* triangles; /* triangle_count rows of vertices, counter-clockwise from outside */
   uint64_t vertex_count;
   uint64_t triangle_count;
 } lmdbench_mesh;
 
-/* Two points that face each other, in B's frame [m]. What is computed of them (distance, direction, force) is the
- * host's; points must lie on the named triangles to 1e-6 of the mesh's diagonal. */
+/* Two points that face each other, in B's frame [m]. The host computes distance, direction and
+ * force; points must lie on the named triangles to 1e-6 of the mesh's diagonal. */
 typedef struct lmdbench_contact {
   double point_a[3];
   double point_b[3];
-  int32_t triangle_a; /* that carries point_a: where there are several, any of them */
+  int32_t triangle_a; /* one that carries point_a */
   int32_t triangle_b;
   int32_t part_a; /* LMDBENCH_CORNER_0 ... LMDBENCH_FACE, or LMDBENCH_PART_UNKNOWN */
   int32_t part_b;
@@ -83,8 +83,8 @@ typedef struct lmdbench_method {
   int32_t promise;
   uint32_t flags;
 
-  /* Options as the "properties" of a JSON Schema (draft 7) object, each with "type" or "enum", "description" and
-   * "default": {"voxel_m": {"type": "number", "description": "...", "default": 0.001}}. NULL for none. */
+  /* Options: the "properties" of a JSON Schema (draft 7) object, each with "type" or "enum",
+   * "description", "default": {"voxel_m": {"type": "number", ...}}. NULL for none. */
   const char* options_schema;
 
   /* Prepares for two meshes.
@@ -97,10 +97,10 @@ typedef struct lmdbench_method {
                     void** instance, char* message, uint64_t message_size);
 
   /* The contacts at a pose.
-   * X_BA:     rows of the matrix (R | t), p_B = R p_A + t: r00 r01 r02 tx  r10 r11 r12 ty  r20 r21 r22 tz
+   * X_BA:     rows of (R | t), p_B = R p_A + t: r00 r01 r02 tx  r10 r11 r12 ty  r20 r21 r22 tz
    * contacts: receives up to `capacity` contacts, nearest first
-   * needed:   receives how many there are; where that is more than `capacity`, the host calls again at the same pose
-   *           with more room, and the answer must be the same
+   * needed:   receives how many there are; if more than `capacity`, the host calls again at the
+   *           same pose with more room, and the answer must be the same
    * returns 0, or something else for failure */
   int32_t (*search)(void* instance, const double X_BA[12], lmdbench_contact* contacts, uint64_t capacity,
                     uint64_t* needed);
@@ -111,7 +111,7 @@ typedef struct lmdbench_method {
   const void* (*extension)(const char* id);
 } lmdbench_method;
 
-/* Extension: deterministic measures of the work, a row each in results beside the times. */
+/* Extension: deterministic counts of work, each a row in results beside the times. */
 #define LMDBENCH_EXTENSION_COUNTERS "lmdbench.counters/1"
 #define LMDBENCH_MOST_COUNTERS 4
 typedef struct lmdbench_counters {
@@ -122,15 +122,15 @@ typedef struct lmdbench_counters {
   void (*read)(void* instance, uint64_t* values);
 } lmdbench_counters;
 
-/* Extension: a force and torque of the method's own, in place of the experiment's law over its contacts (who runs it
- * may switch back by the option "own_force"). It is judged as any force is. */
+/* Extension: a force and torque of the method's own, instead of the experiment's law over its
+ * contacts (the option "own_force" switches back). It is judged as any force is. */
 #define LMDBENCH_EXTENSION_FORCE "lmdbench.force/1"
 typedef struct lmdbench_force {
   uint64_t struct_size; /* sizeof(lmdbench_force) */
-  /* What B exerts on A at the pose of the last search, which went well. Its time counts as the search's.
-   * wrench: receives force x y z [N] and torque x y z [N m] about the origin of A's frame, in the axes of B's
-   * returns 0, or something else where there is none: then, and where a number is not finite, A feels nothing in
-   * this frame, which is counted */
+  /* What B exerts on A at the pose of the last search, which succeeded. Its time is the search's.
+   * wrench: receives force x y z [N] and torque x y z [N m] about A's origin, in B's axes
+   * returns 0, or something else for no force: then, and where a number is not finite, A feels
+   * nothing in this frame, which is counted */
   int32_t (*read)(void* instance, double wrench[6]);
 } lmdbench_force;
 
@@ -138,7 +138,7 @@ typedef struct lmdbench_method_entry_type {
   uint32_t abi_major; /* LMDBENCH_METHOD_ABI_MAJOR */
   uint32_t abi_minor;
   uint64_t struct_size; /* sizeof(lmdbench_method_entry_type) */
-  /* The methods of this plugin from 0 on; NULL behind the last. */
+  /* The plugin's methods from 0 on; NULL beyond the last. */
   const lmdbench_method* (*get)(uint32_t index);
 } lmdbench_method_entry_type;
 

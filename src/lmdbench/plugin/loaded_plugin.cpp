@@ -17,7 +17,7 @@ namespace lmdbench {
 namespace {
 
 #if defined(__SSE__)
-/// Of MXCSR, without the flags of what happened.
+/// The exception flags of MXCSR, which no mode depends on.
 constexpr unsigned FLAGS = 0x3F;
 unsigned control_bits() {
   return _mm_getcsr() & ~FLAGS;
@@ -95,11 +95,11 @@ LoadedPlugin::LoadedPlugin(const std::string& file) {
 }
 
 LoadedPlugin::~LoadedPlugin() {
-  // Not closed: threads and destructors of the plugin may outlive its last instance.
+  // Without dlclose: threads and destructors of the plugin may outlive its last instance.
 }
 
 const lmdbench_method* LoadedPlugin::method(std::uint32_t index) const {
-  constexpr std::uint32_t MOST = 64;  // One that never ends would never end here.
+  constexpr std::uint32_t MOST = 64;  // Against an endless table.
   return index < MOST ? entry_->get(index) : nullptr;
 }
 

@@ -10,17 +10,17 @@
 #include <memory>
 #include <string>
 
-/// A plugin in this process, behind calls that check what can be checked there. Used by the child process and, for plugins that
-/// are trusted, by the program itself; depends on nothing but the header and dlopen, so that the child is as bare as a
-/// plugin may expect.
+/// A plugin in this process, behind calls that check what can be checked here. The child process
+/// uses it and, for trusted plugins, the program itself. It needs only the header and dlopen, so
+/// that the child is as bare as a plugin may expect.
 namespace lmdbench {
 
-/// Rounding mode, flush-to-zero and denormals-are-zero as they are when it is made; puts them back. A shared object that was linked
-/// with -ffast-math sets the latter two for the thread that loads it, and exact predicates break silently.
+/// Holds rounding mode, flush-to-zero and denormals-are-zero as of its construction, and restores
+/// them. Loading an object linked with -ffast-math sets these two: exact predicates break silently.
 class FloatMode {
  public:
   FloatMode();
-  /// @return whether they had changed
+  /// @return whether one of them had changed
   bool restore() const;
 
  private:
@@ -28,17 +28,17 @@ class FloatMode {
   int rounding_;
 };
 
-/// What a search left, without its contacts.
+/// Result of a search, without its contacts.
 struct PluginReply {
-  std::int32_t status = 0;               ///< What the plugin returned, or one of those below.
-  std::uint32_t changed_float_mode = 0;  ///< 1 where it did.
-  std::uint64_t needed = 0;              ///< Contacts that there are.
+  std::int32_t status = 0;               ///< Returned by the plugin, or one of those below.
+  std::uint32_t changed_float_mode = 0;  ///< 1 where the plugin changed it.
+  std::uint64_t needed = 0;              ///< Number of contacts found.
   double seconds = 0.0;                  ///< In the plugin.
   std::array<std::uint64_t, LMDBENCH_MOST_COUNTERS> counters{};
   std::array<double, 6> wrench{};  ///< Of a method with a force of its own; NaN where it gave none.
 
   static constexpr std::int32_t THREW = -1000;
-  static constexpr std::int32_t UNSTEADY = -1001;  ///< Given more room it had more contacts again.
+  static constexpr std::int32_t UNSTEADY = -1001;  ///< With more room it had more contacts again.
 };
 
 /// A shared object that keeps to the interface as far as its tables tell.
@@ -50,11 +50,11 @@ class LoadedPlugin {
   LoadedPlugin(const LoadedPlugin&) = delete;
   LoadedPlugin& operator=(const LoadedPlugin&) = delete;
 
-  /// @return null behind the last
+  /// @return null beyond the last
   const lmdbench_method* method(std::uint32_t index) const;
-  /// @return null where it counts nothing
+  /// @return null where the method counts nothing
   static const lmdbench_counters* counters(const lmdbench_method& method);
-  /// @return null where it has no force of its own
+  /// @return null where the method has no force of its own
   static const lmdbench_force* force(const lmdbench_method& method);
   /// Whether loading it changed the float mode, which was put back.
   bool changed_float_mode() const { return changed_float_mode_; }
@@ -68,14 +68,14 @@ class LoadedPlugin {
 /// A method of a plugin, prepared for two meshes.
 class LoadedMethod {
  public:
-  /// @throws std::runtime_error with what the plugin says
+  /// @throws std::runtime_error with the plugin's message
   LoadedMethod(const lmdbench_method& method, const lmdbench_mesh& a, const lmdbench_mesh& b, double cutoff,
                const char* options);
   ~LoadedMethod();
   LoadedMethod(const LoadedMethod&) = delete;
   LoadedMethod& operator=(const LoadedMethod&) = delete;
 
-  /// @param contacts of `capacity`
+  /// @param contacts room for `capacity` contacts
   PluginReply search(const double* X_BA, lmdbench_contact* contacts, std::uint64_t capacity);
   bool changed_float_mode() const { return changed_float_mode_; }
 

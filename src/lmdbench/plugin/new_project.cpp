@@ -40,7 +40,7 @@ std::string new_plugin(const std::filesystem::path& folder, const std::string& l
     if (!file.language.empty() && file.language != language) continue;
     std::string text(file.text);
     constexpr std::string_view PLACE = "METHOD_NAME";
-    // The header has words of its own that begin so.
+    // Not in the header, where words of its own begin with the same letters.
     for (std::size_t at = 0; !file.language.empty() && (at = text.find(PLACE, at)) != std::string::npos;
          at += name.size())
       text.replace(at, PLACE.size(), name);

@@ -84,7 +84,7 @@ class PluginMethod : public Method, public HasOwnWrench {
       ++counters[PluginMark::LOST];
       description_->faults->tell(answer.lost);
     }
-    // What a frame of the method costs is what passed in the plugin; bringing poses there and judging the answer is this program's.
+    // A frame's time is that in the plugin. Sending poses and judging answers is this program's.
     seconds_of_others() +=
         std::max(0.0, std::chrono::duration<double>(Clock::now() - begin).count() - in_plugin);
   }
@@ -115,7 +115,7 @@ class PluginMethod : public Method, public HasOwnWrench {
   std::unique_ptr<PluginCaller> caller_;
 };
 
-/// Of the checks that the registry's own methods keep to by a test.
+/// The checks that a test makes of the registry's own methods.
 Json checked_options(const std::string& text, const std::string& file, const std::string& place) {
   const auto fail = [&](const std::string& why) -> void {
     throw InputError(file, place, why,
@@ -161,7 +161,7 @@ MethodDescription description_of(const Json& method, const std::filesystem::path
                         : promise == LMDBENCH_PROMISE_APPROXIMATION ? Promise::APPROXIMATION
                         : promise == LMDBENCH_PROMISE_NEAREST_PAIR  ? Promise::NEAREST_PAIR
                                                                     : Promise::FORCE_ONLY;
-  // A process serves one pair of meshes wherever they are; what is remembered of one pose does no harm at the next.
+  // A process serves a pair of meshes in any pose; state kept from one pose harms no other.
   description.frame_coherent = (method["flags"].get<std::uint32_t>() & LMDBENCH_KEEPS_FRAMES) != 0;
   description.options = checked_options(method["options"].get<std::string>(), file.string(), place);
   if (method["own_force"].get<bool>())
@@ -182,7 +182,7 @@ MethodDescription description_of(const Json& method, const std::filesystem::path
   }
   description.plugin = std::filesystem::absolute(file);
   description.faults = std::make_shared<MethodFaults>();
-  // What makes instances must not hold the description that holds it.
+  // The description holds `make`, which must therefore not hold it.
   const auto shared = std::make_shared<const MethodDescription>(description);
   description.make = [shared, index, trust](const Scene& scene,
                                             const Json& options) -> std::unique_ptr<Method> {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-/// Methods from outside: shared objects with the interface of lmdbench_method.h. Once added, such a method is in the registry and taken
-/// by whatever takes methods, with what its description says: `MethodDescription::plugin` names its file.
+/// Methods from outside: shared objects with the interface of lmdbench_method.h. An added method is
+/// in the registry and taken wherever methods are; `MethodDescription::plugin` names its file.
 namespace lmdbench {
 
 /// Where a plugin runs.
@@ -18,13 +18,13 @@ enum class PluginTrust : std::uint8_t {
   TRUSTED  ///< In this process.
 };
 
-/// What a plugin's methods say of themselves, checked; nothing of it runs in this process yet.
-/// @throws InputError naming the file and what is wrong with it: not loadable, another ABI, a name that is no name, options that
-///         are no schema
+/// The checked descriptions of a plugin's methods; none of its code runs in this process yet.
+/// @throws InputError naming the file and the fault: not loadable, another ABI, a bad name, options
+///         that are no schema
 std::vector<MethodDescription> plugin_methods(const std::filesystem::path& file, PluginTrust trust);
 
-/// Adds its methods to the registry, behind those of the program. For the start of a program, as `set_limit`.
-/// @throws InputError as above, or for a name that is taken
+/// Adds its methods to the end of the registry. For the start of a program, as `set_limit`.
+/// @throws InputError as above, or for a name that is in use
 void add_plugin(const std::filesystem::path& file, PluginTrust trust);
 
 }  // namespace lmdbench

@@ -14,7 +14,7 @@
 
 namespace lmdbench {
 
-/// A method of a plugin and the two meshes that it is to see.
+/// A method of a plugin and its two meshes.
 struct PluginTask {
   std::filesystem::path file;
   std::uint32_t method = 0;
@@ -24,17 +24,17 @@ struct PluginTask {
   std::string options;  ///< JSON object
 };
 
-/// What a plugin answered; everything in it may be wrong.
+/// A plugin's answer, not yet checked.
 struct PluginAnswer {
-  /// Unset: no answer. It crashed, took too long, threw, said that it failed; `lost` says which.
+  /// Unset: no answer. It crashed, took too long, threw or reported failure: see `lost`.
   std::optional<PluginReply> reply;
   std::string lost;
-  std::span<const lmdbench_contact> contacts;  ///< Valid until the next call. Empty where there are too many.
+  std::span<const lmdbench_contact> contacts;  ///< Valid until the next call; none if too_many.
   bool too_many = false;
 };
 
-/// What to make of a reply of this build's own code.
-/// @param contacts the plugin's room
+/// Turns a reply into an answer.
+/// @param contacts where the plugin wrote them
 void judge_reply(const PluginReply& reply, const lmdbench_contact* contacts, PluginAnswer& answer);
 
 /// Where a plugin runs.
@@ -45,23 +45,23 @@ class PluginCaller {
   virtual PluginAnswer search(const double* X_BA) = 0;
 };
 
-/// In a process of its own. It is started at the first call (or by `make_child_caller`, so that no frame pays for it), ended where a
-/// call takes longer than `Limit::PLUGIN_SECONDS`, and started anew for the call after one that was lost: RESTARTS times, then every
-/// call is lost. It may take `Limit::PLUGIN_BYTES` of memory. That protects results from faults of the plugin; it is no sandbox for
-/// a plugin that means harm: the process is this user's.
+/// Runs it in a process of its own, started at the first call (or by `make_child_caller`, so that
+/// no frame pays for it) and ended where a call takes longer than `Limit::PLUGIN_SECONDS`. A lost
+/// call restarts it for the next one, RESTARTS times; then every call is lost.
+/// `Limit::PLUGIN_BYTES` bounds its memory. No sandbox against malice: the process is this user's.
 ///
-/// Processes are started by posix_spawn, not Boost.Process: a child forked from a program with threads could not use what those had
-/// locked (oneTBB of Embree), and limits, closed files and shared memory are the child's own first steps.
+/// posix_spawn and not Boost.Process: a child forked from a program with threads could not use what
+/// these had locked (oneTBB of Embree); it sets limits, files and shared memory itself.
 std::unique_ptr<PluginCaller> make_child_caller(PluginTask task);
 
-/// In this process, for plugins that are trusted: a crash is the program's. What it writes past the end is noticed where it is little.
+/// In this process, for trusted plugins: it can crash the program. Short overruns are noticed.
 /// @throws InputError where the plugin cannot be loaded
 std::unique_ptr<PluginCaller> make_direct_caller(PluginTask task);
 
-/// What a plugin says of itself, asked in a process of its own: {"methods": [{"name", "version", "summary", "promise", "flags",
-/// "own_force", "options" (text), "counters"}]}.
-/// @throws InputError where it cannot be loaded, crashes, takes too long or says nothing readable; EnvironmentError where the child
-///         program is missing
+/// A plugin's description of itself, asked in its own process: {"methods": [{"name", "version",
+/// "summary", "promise", "flags", "own_force", "options" (text), "counters"}]}.
+/// @throws InputError where it cannot be loaded, crashes, takes too long or answers unreadably;
+///         EnvironmentError where the child program is missing
 std::string describe_plugin(const std::filesystem::path& file);
 
 }  // namespace lmdbench

@@ -7,11 +7,11 @@
 
 namespace lmdbench {
 
-/// A file of the projects that `lmdbench plugin new` writes; of no language: of every one.
+/// A file of the projects of `lmdbench plugin new`; an empty language means all languages.
 struct TemplateFile {
   std::string_view language, name, text;
 };
-/// What stands in template/, as it was when the program was built.
+/// The files of template/, as of the build.
 const std::vector<TemplateFile>& template_files();
 
 }  // namespace lmdbench

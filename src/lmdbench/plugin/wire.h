@@ -8,20 +8,20 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What program and child process tell each other. Both are of one build, so structures go as they are: small ones over a
-/// socket that keeps messages whole, which also tells both sides at once when the other one is gone; meshes and contacts by shared
-/// memory. The child may write whatever it likes into what the program reads: sizes are checked and everything is judged.
+/// Messages between program and child process. Both are of one build, so structures are sent as
+/// they are: small ones over a socket that keeps messages whole and tells either side when the
+/// other has ended; meshes and contacts by shared memory. The program checks all that it reads.
 namespace lmdbench::wire {
 
-/// Open files of the child beside its standard ones.
+/// File descriptors of the child after its standard ones.
 inline constexpr int SOCKET = 3, MESHES = 4, CONTACTS = 5, FIRST_UNUSED = 6;
 
-/// Contacts of one pose, at most; shared memory is reserved for them and taken as it is used.
+/// Most contacts of one pose: shared memory is reserved for them, and pages only when used.
 inline constexpr std::uint64_t MOST_CONTACTS = std::uint64_t{1} << 20;
 inline constexpr std::size_t CONTACT_BYTES = MOST_CONTACTS * sizeof(lmdbench_contact);
 static_assert(sizeof(lmdbench_contact) == 64, "pages hold a whole number of them");
 
-/// At the begin of the meshes' memory. Behind it: vertices of A, of B, triangles of A, of B, options ended by 0.
+/// Begins the meshes' memory. Then: vertices of A, of B, triangles of A, of B, options ended by 0.
 struct Task {
   std::uint32_t method = 0;
   double cutoff = 0.0;
@@ -40,8 +40,8 @@ struct Request {
   std::array<double, 12> X_BA{};
 };
 
-/// The first one tells that the method is made, or why not. Contacts stand in shared memory: `reply.needed` of them, where that is at
-/// most MOST_CONTACTS.
+/// The first one tells whether the method was made, or why not. Contacts are in shared memory:
+/// `reply.needed` of them, where that is at most MOST_CONTACTS.
 struct Answer {
   std::uint64_t number = 0;
   PluginReply reply;

@@ -35,7 +35,7 @@ DeformingDistance::Interval DeformingDistance::known(std::int64_t frame, const P
 
 namespace {
 
-/// Whether frames tell of each other's distance.
+/// Whether one frame's distance bounds that of another.
 bool is_one_deforming_pair(const Scene& rest, const SceneMotion& motion) {
   return motion.deformation && !motion.movers && !rest.is_world();
 }
@@ -85,9 +85,9 @@ class ContactScan {
         cutoff_(scene.cutoff) {}
 
   bool at(const Pose& X_WM) {
-    // In contact for as long as the last nearest triangles are.
+    // In contact as long as the last nearest triangles are.
     if (tracker_.last_pair(X_WM).distance <= cutoff_) return true;
-    // Out of contact until the mesh can have come as far as the gap was.
+    // Out of contact until the mesh can have moved through the excess of the gap.
     if (apart_ && motion_.between(*apart_, X_WM) + motion_.slack(*apart_, X_WM) < excess_) return false;
     const NearestPair pair = tracker_.nearest(X_WM);
     const bool in_contact = pair.triangle_moving >= 0 && pair.distance <= cutoff_;
@@ -104,8 +104,8 @@ class ContactScan {
   NearestTracker tracker_;
   const MotionBound& motion_;
   double cutoff_;
-  std::optional<Pose> apart_;  ///< Pose of the last search that found no contact, ...
-  double excess_ = 0.0;        ///< ... by so much [m].
+  std::optional<Pose> apart_;  ///< Last pose searched without contact, ...
+  double excess_ = 0.0;        ///< ... its gap minus the cutoff [m].
 };
 
 /// Distances to one fixed mesh, pose after pose.
@@ -116,7 +116,7 @@ class DistanceScan {
                  fixed.prepared<Hierarchy>()),
         motion_(motion) {}
 
-  /// The exact distance, or infinity where it is known to be above `limit`.
+  /// The exact distance, or infinity where a bound puts it above `limit`.
   double unless_beyond(const Pose& X_WM, double limit) {
     if (looked_at_) {
       const double nearer = motion_.between(*looked_at_, X_WM) + motion_.slack(*looked_at_, X_WM);

@@ -19,23 +19,23 @@
 
 namespace lmdbench {
 
-/// How far a point of the moving mesh can get between two poses.
+/// Bounds how far a point of the moving mesh moves between two poses.
 class MotionBound {
  public:
-  /// Part of the lengths involved that rounding may take from a bound on a motion.
+  /// Relative rounding error of such a bound.
   static constexpr double ROUNDING = 1e-12;
 
-  /// @param farther how far points may be from where the mesh has them, as it deforms [m]
+  /// @param farther largest distance of a deformed point from its place in the mesh [m]
   explicit MotionBound(const TriangleMesh& mesh, double farther = 0.0)
       : centre_(bounding_box_centre(mesh)), radius_(radius_about(mesh, centre_) + farther) {}
 
-  /// The way of the centre, and of the point farthest from it as the mesh turns: a chord.
+  /// Distance moved by the centre, plus the chord of the point farthest from it as the mesh turns.
   double between(const Pose& a, const Pose& b) const {
     const double way = (RigidTransform(b).point(centre_) - RigidTransform(a).point(centre_)).norm();
     const double half_turn_sine = (a.rotation.conjugate() * b.rotation).vec().norm();
     return way + 2.0 * radius_ * std::min(half_turn_sine, 1.0);
   }
-  /// Rounding of that, at poses as far out as these.
+  /// Rounding error of that, at poses as far from the origin as these.
   double slack(const Pose& a, const Pose& b) const {
     return ROUNDING * (radius_ + centre_.norm() + a.translation.norm() + b.translation.norm());
   }
@@ -45,8 +45,8 @@ class MotionBound {
   double radius_;
 };
 
-/// The exact distance of meshes that deform, frame by frame: of a frame that was not looked at, what follows from one that was and
-/// bounds on motion and deformation since.
+/// The exact distance of deforming meshes, frame by frame. For a frame without a search it is
+/// bounded by the last search and the motion and deformation since.
 class DeformingDistance {
  public:
   /// @pre one mesh moves, past others that are not placed
@@ -55,7 +55,7 @@ class DeformingDistance {
   /// The distance, however far; 0 where triangles touch or intersect [m].
   double look(std::int64_t frame, const Pose& X_WM);
 
-  /// Between these it is.
+  /// Bounds of a distance [m].
   struct Interval {
     double least = 0.0, most = std::numeric_limits<double>::infinity();
   };
@@ -66,20 +66,20 @@ class DeformingDistance {
   std::shared_ptr<const SceneDeformation> deformation_;
   MotionBound motion_;  ///< Of the moving mesh in all of its shapes.
   std::optional<Pose> looked_at_;
-  std::int64_t frame_ = 0;  ///< That was looked at.
+  std::int64_t frame_ = 0;  ///< Of the last search.
   double distance_ = 0.0;   ///< There [m].
 };
 
-/// As contact.h, each frame at the shape that it has.
-/// @param forecast  whether frames whose contact is known are left out of the search: the answer is the same
+/// As `frames_in_contact` below, each frame with its shape.
+/// @param forecast whether frames with known contact skip the search: the answer is the same
 std::vector<bool> frames_in_contact(const Scene& rest, const SceneMotion& motion,
                                     const std::vector<Pose>& poses, bool forecast = true);
 
-/// Exact distances of the nearest two objects of a scene, of which one moves. Looks at every pair whose spheres are near enough.
+/// Exact distances of a scene's nearest objects, one of them moving; tests pairs with near spheres.
 class NearestObjects {
  public:
   struct Nearest {
-    double distance = std::numeric_limits<double>::infinity();  ///< [m]; 0 where meshes touch or intersect.
+    double distance = std::numeric_limits<double>::infinity();  ///< [m]; 0: touching or crossing.
     ObjectPair objects;
     std::int32_t triangle_moving = -1;  ///< -1: no pair within the bound.
     std::int32_t triangle_fixed = -1;
@@ -88,10 +88,10 @@ class NearestObjects {
   /// @param scene must outlive this
   explicit NearestObjects(const Scene& scene) : scene_(scene), near_(scene) {}
 
-  /// Of equal distances that of the pair whose spheres are nearer.
+  /// Of equal distances the pair with the nearer spheres.
   /// @param bound distances above this are not looked for [m]
   Nearest at(const Pose& X_WM, double bound = std::numeric_limits<double>::infinity());
-  /// Whether any two are that near.
+  /// Whether any two objects are that near.
   bool any_within(const Pose& X_WM, double distance);
 
  private:
@@ -104,7 +104,7 @@ class SceneDistance {
  public:
   SceneDistance(const Scene& rest, const SceneMotion& motion);
 
-  /// @param bound distances that are known to be above this are not looked for: infinity [m]
+  /// @param bound distances known to be above this are not computed: infinity [m]
   double at(std::int64_t frame, const Pose& X_WM, double bound = std::numeric_limits<double>::infinity());
 
  private:
@@ -114,29 +114,29 @@ class SceneDistance {
   std::optional<NearestObjects> objects_;
 };
 
-/// "In contact", the one definition: at each pose, whether the meshes are within the cutoff of each other, so
-/// that there is something to feel. A fact of the scene and the path alone: statistics over the frames in
-/// contact are over the same frames for every method, whatever it found. Triangles that intersect or touch at
-/// distance 0 are "touching", a part of it.
-/// @param forecast  whether frames that follow from an earlier one and a bound on the motion since are left out of the
-///                  search: the answer is the same
+/// "In contact", the one definition: whether the meshes of a pose are within the cutoff of each
+/// other, so that there is a force. It depends on scene and path alone: statistics over frames in
+/// contact are over the same frames for every method. Triangles that intersect or touch at distance
+/// 0 are "touching", a part of it.
+/// @param forecast whether a frame skips the search if an earlier one and a bound on the motion
+/// since decide it: the answer is the same
 std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>& poses, bool forecast = true);
 
-/// Exact minimum distance to the fixed meshes, none of which is placed [m]; 0 where triangles touch or intersect, infinite where none
-/// is within the bound.
+/// Exact minimum distance to the fixed meshes, none of which is placed [m]; 0 where triangles touch
+/// or intersect, infinite where none is within the bound.
 /// @param bound distances above this are not looked for [m]
 double nearest_distance(const Scene& scene, const Pose& X_WM,
                         double bound = std::numeric_limits<double>::infinity());
 
 /// Distances of the meshes along a path.
 struct Clearance {
-  double least_m =
-      std::numeric_limits<double>::infinity();  ///< Exact, however far; 0 where triangles touch or intersect.
-  std::int64_t touching = 0;                    ///< Poses at which they touch or intersect.
+  /// Exact at any size; 0 where triangles touch or intersect.
+  double least_m = std::numeric_limits<double>::infinity();
+  std::int64_t touching = 0;  ///< Poses at which they touch or intersect.
 };
 
-/// Of all poses. Looked at are those whose distance, by a bound on the motion since the last look, could be less than the least so
-/// far: the answer is that of a look at each.
+/// Of all poses, exactly. A pose is measured only if, by a bound on the motion since the last
+/// measured one, it could be below the least so far.
 Clearance clearance(const Scene& scene, std::span<const Pose> poses);
 
 }  // namespace lmdbench

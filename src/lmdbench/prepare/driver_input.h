@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-/// What every driver takes: methods, and the scene that they are driven through.
+/// Inputs of every driver: methods, and the scene that they run on.
 namespace lmdbench {
 
 class PoseSource;
@@ -27,10 +27,10 @@ struct DrivenMethod {
   std::string label;
   std::function<std::unique_ptr<Method>()> make;
   ForceProfile profile;
-  /// What becomes of its LMDs; needs a method that finds critical pairs where it is not their sum.
+  /// How its LMDs combine; other than the sum needs a method that finds critical pairs.
   const Aggregation* aggregation = &sum_law();
   Scene scene = {};  ///< For aggregations that need more than the method's set.
-  /// Makes it on another scene of the same meshes: where some deform or several move, each run of a method has a scene of its own.
+  /// Makes it on another scene of the same meshes: for runs whose meshes deform or several move.
   std::function<std::unique_ptr<Method>(const Scene& scene)> make_on = nullptr;
 
   std::unique_ptr<Method> make_for(const SceneFrames& frames) const {
@@ -38,19 +38,19 @@ struct DrivenMethod {
   }
 };
 
-/// All that a driver needs to know of the scene.
+/// Scene, path and device for a driver.
 struct DriverInput {
-  std::vector<Pose> poses =
-      {};  ///< The path, one a frame, X_WM; in a closed loop the one that the hand means to take.
+  /// X_WM, one a frame: the path; in a closed loop the path that the hand intends.
+  std::vector<Pose> poses = {};
   double frame_rate_hz = 1000.0;
   LoopChoice loop = {};  ///< Closed: every method moves a device of its own.
-  /// Makes the source of a method's poses where that is neither the path nor the loop's device.
+  /// Makes the source of a method's poses if that is neither the path nor the loop's device.
   std::function<std::unique_ptr<PoseSource>()> make_poses = nullptr;
-  std::optional<std::int64_t> frames = std::nullopt;  ///< Unset: as many as the path has poses.
+  std::optional<std::int64_t> frames = std::nullopt;  ///< Unset: one for each pose of the path.
   Vec3 reference_M = Vec3::Zero();  ///< Point of the moving mesh about which torque is taken.
   VirtualPhantom device;
-  std::function<bool(std::int64_t frame)> keep_lmds = nullptr;  ///< Frames whose LMD sets are to be kept.
-  SceneMotion motion = {};  ///< Where there is any every method needs `make_on` and a scene.
+  std::function<bool(std::int64_t frame)> keep_lmds = nullptr;  ///< Frames whose LMD sets are kept.
+  SceneMotion motion = {};  ///< If any, all methods need `make_on` and a scene.
 };
 
 }  // namespace lmdbench

@@ -17,7 +17,7 @@
 namespace lmdbench {
 namespace {
 
-/// Intervals that are this near to whole frames, as a share of a frame, are meant to be: seconds are rounded.
+/// Intervals this near to whole frames, as a share of a frame, count as whole: seconds are rounded.
 constexpr double WHOLE_FRAMES = 1e-9;
 
 double in_frames(double seconds, double frame_rate_hz) {
@@ -25,7 +25,7 @@ double in_frames(double seconds, double frame_rate_hz) {
   return std::abs(frames - std::round(frames)) <= WHOLE_FRAMES * frames ? std::round(frames) : frames;
 }
 
-/// Extension of text without triangles.
+/// Extension of vertex lists, which have no triangles.
 constexpr const char* VERTEX_LIST = ".xyz";
 
 std::vector<Vec3> vertices_of_file(const FileContent& content, const TriangleMesh& rest) {
@@ -113,7 +113,7 @@ void FrameVertices::at(std::int64_t frame, std::vector<Vec3>& vertices) const {
   const auto count = static_cast<std::int64_t>(shapes_.size());
   const auto whole = static_cast<std::int64_t>(std::floor(step));
   const double part = step - static_cast<double>(whole);
-  // Which shape stands at a whole step.
+  // The shape at a whole step.
   const auto shape = [&](std::int64_t at) -> const std::vector<Vec3>& {
     std::int64_t index = std::min(at, count - 1);
     if (deformation_.end == SequenceEnd::REPEAT) index = at % count;
@@ -128,7 +128,7 @@ void FrameVertices::at(std::int64_t frame, std::vector<Vec3>& vertices) const {
   if (part == 0.0) return;
   const std::vector<Vec3>& to = shape(whole + 1);
   for (std::size_t v = 0; v < vertices.size(); ++v)
-    // What is at the same place in both stays there, bit for bit.
+    // Unmoved vertices keep their bits.
     if (from[v] != to[v]) vertices[v] = (1.0 - part) * from[v] + part * to[v];
 }
 

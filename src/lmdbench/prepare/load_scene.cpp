@@ -15,7 +15,7 @@
 namespace lmdbench {
 namespace {
 
-/// @param X_WF takes its vertices into the world; without it they stay in the mesh's own frame
+/// @param X_WF moves its vertices into the world; unset: they stay in the mesh's own frame
 MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
                    const std::optional<Pose>& X_WF) {
   const ResolvedMesh resolved =
@@ -27,8 +27,8 @@ MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
   note.file = resolved.file;
   note.size = resolved.size;
   note.sha256 = resolved.sha256;
-  TriangleMesh mesh = resolved.mesh;  // `resolved` keeps what vertex files are held against
-  // In the file's coordinates, which tell how they were rounded; scaling hides that.
+  TriangleMesh mesh = resolved.mesh;  // `resolved` is compared with vertex files
+  // In the file's coordinates, which show their rounding; scaling hides it.
   const double scale = object.placement.factor(mesh);
   PlanarTolerance tolerance = object.planar_tolerance;
   if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
@@ -49,7 +49,7 @@ MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
   return note;
 }
 
-/// @param earlier notes of the objects before
+/// @param earlier notes of the objects before it
 MeshNote load_object(const Experiment& experiment, std::size_t index, const std::vector<MeshNote>& earlier) {
   const ObjectChoice& object = experiment.objects[index];
   const auto shared =
@@ -74,7 +74,7 @@ MeshNote load_object(const Experiment& experiment, std::size_t index, const std:
   return note;
 }
 
-/// Where an object stands, or moves about.
+/// Poses of an object, or the places it moves about.
 std::vector<Pose> places_of(const ObjectChoice& object, const Body& body) {
   if (!object.instances) return {object.pose};
   std::vector<Pose> places;

@@ -18,43 +18,42 @@
 
 namespace lmdbench {
 
-/// The mesh of an object with what is worth knowing of it when one reads the result.
+/// The mesh of an object, with facts for readers of a result.
 struct MeshNote {
   std::string role;                           ///< Of the object, ...
   std::string object;                         ///< ... its name, ...
   MotionKind motion = MotionKind::STANDS;     ///< ... and how it moves.
   std::string name;                           ///< Of the mesh.
-  std::optional<std::filesystem::path> file;  ///< What was read; nothing for a generated shape.
+  std::optional<std::filesystem::path> file;  ///< File read; unset for a generated shape.
   std::int64_t size = 0;                      ///< Bytes of that file
-  std::string sha256;  ///< Of that file, or of the file that a generated shape would be built to.
+  std::string sha256;                         ///< Of that file, or of a generated shape's file.
   ValidityReport report;
   FlatteningReport flattening;  ///< In metres of the scene.
   OrientationReport orientation;
-  std::shared_ptr<const FrameVertices> vertices;  ///< Of a mesh that deforms, frame by frame.
+  std::shared_ptr<const FrameVertices> vertices;  ///< Of a deforming mesh, frame by frame.
   std::shared_ptr<const Body> body;               ///< At rest.
-  std::vector<Pose> instances;        ///< X_WF of each; empty for a mesh that is in the world frame.
-  std::int64_t first_fixed_body = 0;  ///< `Lmd::fixed_body` of the first of an object that stands.
-  std::int64_t first_mover = 0;       ///< Number of the first mover of an object that moves, and ...
-  std::int64_t movers = 0;            ///< ... how many it has; 0 of the held one and of what stands.
+  std::vector<Pose> instances;                    ///< X_WF of each; empty: in the world frame.
+  std::int64_t first_fixed_body = 0;              ///< `Lmd::fixed_body` of a standing one's first.
+  std::int64_t first_mover = 0;                   ///< Number of a moving one's first mover; ...
+  std::int64_t movers = 0;                        ///< ... how many; 0: held or standing.
 };
 
-/// The objects of an experiment, loaded. Meshes that are the same are read and prepared once.
+/// The objects of an experiment, loaded. Equal meshes are read and prepared once.
 struct LoadedScene {
-  Scene
-      scene;  ///< The held object and what stands; MoverPlay adds what moves. The cutoff is left to the caller.
+  /// The held and the standing objects, without a cutoff; MoverPlay adds the moving ones.
+  Scene scene;
   std::vector<MeshNote> notes;  ///< One an object.
-  std::vector<Mover>
-      movers;  ///< In the order of the file, the held one first; none where nothing else moves.
+  std::vector<Mover> movers;    ///< In file order, the held one first; empty where only that moves.
 
-  /// What stands and what moves as one scene, for what looks at sizes alone.
+  /// Standing and moving objects as one scene, for callers that need sizes alone.
   Scene all_meshes() const;
 };
 
-/// @throws InputError naming the object for a mesh that cannot be used
-/// @throws UsageError where so many move that pairs have no number
+/// @throws InputError naming the object with an unusable mesh
+/// @throws UsageError for so many movers that their pairs have no number
 LoadedScene load_scene(const Experiment& experiment);
 
-/// How the bodies of a loaded scene deform in so many frames; null where none does.
+/// How the bodies of a loaded scene deform over the frames; null if none does.
 std::shared_ptr<const SceneDeformation> deformation_of(const std::vector<MeshNote>& notes,
                                                        std::int64_t frames);
 

@@ -29,7 +29,7 @@ MoverPlay make_play(const std::vector<Mover>& movers, const std::vector<std::vec
   LMDBENCH_EXPECTS(movers.size() == poses.size() && !poses.empty(), "parallel arrays of unlike lengths");
   play.number.resize(movers.size());
   std::iota(play.number.begin(), play.number.end(), std::size_t{0});
-  // Movers that are the same in all of this are one for whoever looks at them.
+  // Movers equal in all of this are interchangeable.
   std::ranges::stable_sort(play.number, [&](std::size_t a, std::size_t b) {
     if (movers[a].name != movers[b].name) return movers[a].name < movers[b].name;
     for (std::size_t frame = 0; frame < poses[a].size(); ++frame) {

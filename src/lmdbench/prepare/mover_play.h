@@ -15,40 +15,40 @@
 /// Several objects that move in one run, each on its own path: the held one and the others.
 namespace lmdbench {
 
-/// One of them, or an instance of one.
+/// A moving object, or an instance of one.
 struct Mover {
   std::shared_ptr<const Body> body;
-  std::string name;        ///< Tells meshes apart.
-  std::size_t object = 0;  ///< Of the experiment.
+  std::string name;        ///< Identifies its mesh.
+  std::size_t object = 0;  ///< Index in the experiment.
   std::size_t which = 0;   ///< Instance of the object.
   Pose place;              ///< Frame of its path.
 };
 
 /// All movers with all their poses.
 ///
-/// They stand here in an order that their meshes and paths decide, so that who lists them otherwise in the file gets the same bits: of a
-/// pair the earlier one takes the part of the moving mesh, and forces are summed in this order. `number` says which one of the file each
-/// is: 0 the held object, then those that move one after the other, instance by instance.
+/// Their order depends on their meshes and paths alone, so that another order in the file gives the
+/// same bits: of a pair the earlier one is the moving mesh, and forces are summed in this order.
+/// `number` is that of the file: 0 the held object, then those that move, instance by instance.
 struct MoverPlay {
   std::vector<std::shared_ptr<const Body>> bodies;
   std::vector<std::size_t> number;
   std::vector<Vec3> references_M;        ///< Centres about which torque is taken.
-  std::vector<std::vector<Pose>> poses;  ///< X_WM, of a frame of a mover.
+  std::vector<std::vector<Pose>> poses;  ///< X_WM, [mover][frame].
 
   std::size_t count() const { return bodies.size(); }
-  /// Where the moving mesh is.
+  /// Index of the moving mesh.
   std::size_t moving() const;
-  /// The scene with these movers in it; where they are is SceneFrames' to say.
+  /// The scene with these movers; SceneFrames sets their poses.
   Scene with_movers(Scene scene) const;
 };
 
-/// @param movers in the order of the file, to be put into their own
-/// @param poses of a mover of a frame
+/// @param movers in file order
+/// @param poses [mover][frame]
 MoverPlay make_play(const std::vector<Mover>& movers, const std::vector<std::vector<Pose>>& poses);
 
-/// An LMD as files have it: of its two objects the one with the lower number of the file moves.
+/// An LMD as in files: of its two objects the one with the lower number in the file moves.
 struct FiledLmd {
-  Lmd lmd;                       ///< `fixed_body` counts what stands, then the movers by their number.
+  Lmd lmd;                       ///< `fixed_body`: standing ones, then movers.
   std::int64_t moving_body = 0;  ///< Number of the mover.
 };
 /// @param play of the scene; null where one mesh moves

@@ -27,12 +27,12 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// Of an experiment that begins at rest.
+/// Of an experiment that begins at rest in contact.
 constexpr const char* CONTACT_HAND = "postural-arm";
 constexpr double CONTACT_SECONDS = 1.0;
 
-/// A folder that is moved or shared with what stands about it finds it again. Both are made absolute first: what is not there yet has
-/// no canonical path.
+/// Relative, so that folders can move together. Of absolute names: a file that does not exist yet
+/// has no canonical path.
 std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
   return std::filesystem::proximate(std::filesystem::absolute(file), std::filesystem::absolute(folder))
       .generic_string();
@@ -69,7 +69,7 @@ GivenMesh part_of(const std::string& name, const std::string& place,
   return part;
 }
 
-/// One decision for both: parts that are to meet come out of one drawing far more often than out of two.
+/// One decision for both: parts that meet come from one drawing far more often than from two.
 void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::string>& unit) {
   if (unit) {
     std::tie(moving.metres, fixed.metres) = metres_of_units(*unit, "--unit");
@@ -78,7 +78,7 @@ void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::
     const auto known = [](const GivenMesh& part) {
       return is_mesh_name(part.name) ? std::optional(1.0) : metres_of_format(part.name);
     };
-    double longest = 0.0;  // of coordinates whose unit nobody says
+    double longest = 0.0;  // of coordinates without a known unit
     for (const GivenMesh* part : {&moving, &fixed})
       if (!known(*part)) longest = std::max(longest, part->diagonal);
     const bool millimetres = longest > LARGEST_PLAUSIBLE_DIAGONAL;
@@ -121,7 +121,7 @@ OrientationChoice choose_orientation(const GivenMesh& part, const std::optional<
   return OrientationChoice::OUTWARD;
 }
 
-/// Whether the meshes stay where their files have them.
+/// Whether the meshes stay at their files' places.
 bool choose_places(const GivenMesh& moving, const GivenMesh& fixed, const InitChoices& chosen,
                    std::vector<DefaultNote>& choices) {
   const auto box_of = [](const GivenMesh& part) {
@@ -146,7 +146,7 @@ bool choose_places(const GivenMesh& moving, const GivenMesh& fixed, const InitCh
   return keep;
 }
 
-/// Flaws that no method can mend, with what to do.
+/// Flaws that no method can mend, with remedies.
 void tell_flaws(const GivenMesh& part, std::vector<std::string>& warnings) {
   std::vector<std::string> flaws;
   const ValidityReport report = check_mesh(build_surface(part.mesh.mesh));
@@ -165,7 +165,7 @@ void tell_flaws(const GivenMesh& part, std::vector<std::string>& warnings) {
                     part.name, flaw, part.name));
 }
 
-/// Its entry in the experiment.
+/// A mesh's entry in the experiment.
 OrderedJson mesh_entry(const GivenMesh& part, bool keep_place, const InitChoices& chosen,
                        const std::filesystem::path& folder, std::vector<DefaultNote>& choices) {
   OrderedJson entry{{"mesh", seen_from(folder, part.name)}};
@@ -179,7 +179,7 @@ OrderedJson mesh_entry(const GivenMesh& part, bool keep_place, const InitChoices
   return entry;
 }
 
-/// Closed loop at rest: what the scene is pressed on by is found by `lmdbench stability`.
+/// Closed loop at rest; `lmdbench stability` computes the pressing force.
 void write_contact(NewExperiment& result, OrderedJson& json, const Scene& scene, const Experiment& open,
                    const Progress& progress) {
   ForceProfile profile;
@@ -244,9 +244,9 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
   for (const GivenMesh* part : {&moving_part, &fixed_part})
     if (part == &moving_part || fixed != moving) tell_flaws(*part, result.warnings);
 
-  // What the program chooses for a file of two meshes, from the one place that chooses.
+  // The program's choices for a file of two meshes, made in the one place for them.
   const Experiment open = parse_experiment(json.dump(), result.experiment_file);
-  std::optional<PreparedRun> prepared;  // with a path that grazes, which a scene at rest does not need
+  std::optional<PreparedRun> prepared;  // has a grazing path, which rest in contact does not need
   Scene scene;
   std::vector<SceneWarning> sizes;
   if (chosen.contact) {

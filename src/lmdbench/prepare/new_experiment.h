@@ -14,19 +14,19 @@
 
 namespace lmdbench {
 
-/// What `lmdbench init` may be told.
+/// What a user may tell `lmdbench init`.
 struct InitChoices {
-  /// What a unit of the files' coordinates is: as `metres_of_units` reads it. Without it that of the format (`metres_of_format`), and one
-  /// is chosen for files whose format has none: millimetres where either spans more than LARGEST_PLAUSIBLE_DIAGONAL, else metres.
-  /// Meshes of the manifest are in metres.
+  /// Unit of the files' coordinates, for `metres_of_units`. Unset: the format's
+  /// (`metres_of_format`), else millimetres where a mesh spans more than
+  /// LARGEST_PLAUSIBLE_DIAGONAL, else metres. Meshes of the manifest are in metres.
   std::optional<std::string> unit = std::nullopt;
-  /// Without it outward for a mesh that is inside out or disagrees with itself, else keep.
+  /// Unset: outward for a mesh that is inside out or inconsistent, else keep.
   std::optional<OrientationChoice> orientation = std::nullopt;
-  /// Whether both meshes stay where their files have them or each is centred. Without it they stay where two files of one unit place
-  /// them in or next to each other, as parts of one assembly.
+  /// Whether both meshes stay at their files' places, or are centred. Unset: they stay where two
+  /// files of one unit have them next to or in each other, as parts of one assembly.
   std::optional<bool> keep_place = std::nullopt;
-  bool contact =
-      false;  ///< A closed loop that begins at rest in contact (resting_pose.h), for `lmdbench stability`.
+  /// Whether to make a closed loop from rest in contact (resting_pose.h), for `lmdbench stability`.
+  bool contact = false;
 };
 
 /// Files of an experiment that is ready to run and to edit.
@@ -38,25 +38,25 @@ struct NewExperiment {
   std::string experiment_text;
   std::string specification_text;
   std::string path_text;
-  /// At rest in contact: the override under which a hand's device is pressed on by just the force that balances the contact,
-  /// for `lmdbench run`. Without it the contact pushes it out, by up to force over the hand's stiffness. Empty otherwise.
+  /// At rest in contact: the override for `lmdbench run` that makes the hand press with just the
+  /// balancing force. Else the contact pushes the device out, by up to force / hand stiffness.
   std::string press;
   std::vector<DefaultNote> choices;   ///< Every value that was chosen, and why.
-  std::vector<std::string> warnings;  ///< Flaws of the meshes, and sizes that tell of another unit.
+  std::vector<std::string> warnings;  ///< Flaws of meshes, sizes of another unit.
 };
 
-/// Chooses everything for two meshes: units, cutoff, forces, a path that grazes, methods and probes.
+/// Chooses all for two meshes: units, cutoff, forces, a path that grazes, methods and probes.
 /// @param moving,fixed  names of the manifest or mesh files, as seen from the present folder
-/// @param folder        where the files will stand; mesh files are named relative to it
+/// @param folder        of the new files, to which names of mesh files are relative
 /// @param mesh_folder   of the manifest
-/// @throws InputError for a mesh that cannot be used, or meshes that no path brings together; UsageError for meshes of sizes more
-///         than UNLIKELY_SIZE_RATIO apart where nobody says their units
+/// @throws InputError for an unusable mesh, or meshes that no path brings together; UsageError for
+///         sizes more than UNLIKELY_SIZE_RATIO apart without a given unit
 NewExperiment new_experiment(const std::string& moving, const std::string& fixed,
                              const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
                              const Progress& progress = {}, const InitChoices& chosen = {});
 
-/// Writes the files (an empty text: none), making the folder.
-/// @throws UsageError where one of them is there already: it may have been edited
+/// Writes the files (none for an empty text), making the folder.
+/// @throws UsageError where one of them exists: it may have been edited
 void write_new_experiment(const NewExperiment& experiment);
 
 }  // namespace lmdbench

@@ -14,14 +14,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Vertices stay where the file has them.
+/// Vertices as in the file.
 const PlanarTolerance TAKEN_AS_THEY_ARE{PlanarTolerance::Kind::LENGTH, 0.0};
 
 std::string join_labels(const std::vector<std::string>& labels) {
   return fmt::format("{}", fmt::join(labels, ", "));
 }
 
-/// A method of the experiment with its options, with the default beside a value that is another.
+/// A method of the experiment with its options; a changed value has its default beside it.
 std::string choice_text(const MethodChoice& choice) {
   const MethodDescription& method = method_description(choice.name);
   std::string text =
@@ -63,7 +63,7 @@ std::string loop_text(const LoopChoice& loop) {
                      loop.delay_frames);
 }
 
-/// What moves beside the held object.
+/// Objects that move beside the held one.
 std::string movers_text(const Experiment& experiment) {
   std::vector<std::string> entries;
   for (const ObjectChoice& object : experiment.objects) {
@@ -78,7 +78,7 @@ std::string movers_text(const Experiment& experiment) {
   return fmt::format("{}; every pair is looked at, each mover has its force", fmt::join(entries, "; "));
 }
 
-/// Which meshes deform, and what each method makes of it.
+/// Deforming meshes, and how each method treats them.
 std::string deformation_text(const Experiment& experiment) {
   std::vector<std::string> meshes, following, remade;
   for (const ObjectChoice& object : experiment.objects)

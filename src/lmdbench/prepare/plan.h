@@ -12,12 +12,12 @@
 
 namespace lmdbench {
 
-/// A part of the bench that a scene may need.
+/// A part of the program that a scene may need.
 enum class Part {
-  FLATTENING,        ///< Vertices of rounded planes put back into them.
+  FLATTENING,        ///< Moves vertices of rounded planes back into them.
   DEFORMATION,       ///< Vertices that move from frame to frame.
   MOVERS,            ///< Meshes that move beside the moving one.
-  LOCAL_TRACKING,    ///< Global searches on a clock of their own, with local tracking between them.
+  LOCAL_TRACKING,    ///< Global searches at their own rate, with local tracking between.
   SEARCH_PER_FRAME,  ///< Methods that find their set from scratch in every frame.
   CRITICAL_PAIRS,    ///< Saddles beside LMDs, for an aggregation that needs them.
   DEVICE,            ///< The virtual device.
@@ -39,7 +39,7 @@ struct PlanItem {
 struct Plan {
   std::vector<PlanItem> items;
   std::vector<RuleDecision> rules;
-  std::optional<SceneLook> scene;  ///< What the inputs are, where somebody has looked.
+  std::optional<SceneLook> scene;  ///< A look at the inputs, if one was made.
 
   bool needs(Part part) const;
   /// Of the item with this name.
@@ -48,13 +48,13 @@ struct Plan {
 
 Plan make_plan(const Experiment& experiment);
 
-/// For people: one line a part, one an option of each method.
+/// For people: one line for a part, one for an option of a method.
 std::string plan_text(const Plan& plan, const Experiment& experiment);
 
-/// JSON text: {"experiment": resolved experiment, "methods": [{"label", "name", "summary", "promise",
-/// "tracks_locally", "options": [{"key", "value", "default", "description"}],
-/// "counters": [{"name", "description"}]}], "needed": [{"part", "why"}],
-/// "left_out": [...]}, "rules" (see `rules_json`) and "scene" (see `to_json` of a SceneLook) where the plan has one.
+/// JSON text: {"experiment": resolved experiment, "methods": [{"label", "name", "summary",
+/// "promise", "tracks_locally", "options": [{"key", "value", "default", "description"}],
+/// "counters": [{"name", "description"}]}], "needed": [{"part", "why"}], "left_out": [...]},
+/// "rules" (see `rules_json`) and, where the plan has one, "scene" (see `to_json` of a SceneLook).
 std::string plan_json(const Plan& plan, const Experiment& experiment);
 
 }  // namespace lmdbench

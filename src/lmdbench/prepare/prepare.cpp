@@ -33,7 +33,7 @@ ForceProfile profile_for(const ForceChoice& force, double cutoff, const std::str
   profile.maximum_force = force.maximum_force_n;
   profile.sharpness = force.sharpness;
   if (force.clip_at_maximum) profile.largest_sum = force.maximum_force_n;
-  // Loading could only compare two lengths; here a share of the mesh's diagonal has become one.
+  // Loading could compare only two lengths; here a share of the mesh's diagonal is one, too.
   if (!(profile.saturation_distance < profile.cutoff))
     throw UsageError(experiment.file.string(), place + "/saturation_m",
                      fmt::format("saturation at {} m is not below the cutoff of {} m",
@@ -42,7 +42,7 @@ ForceProfile profile_for(const ForceChoice& force, double cutoff, const std::str
   return profile;
 }
 
-/// What every run needs of each mesh, side by side where the meshes are large enough for threads.
+/// Preparations for every run, in parallel for meshes large enough for threads.
 void prepare_hierarchies(const Scene& scene) {
   constexpr std::size_t WORTH_A_THREAD = 2048;  // triangles
   const auto large = [](const FixedBody& body) {
@@ -53,7 +53,7 @@ void prepare_hierarchies(const Scene& scene) {
                [&](std::size_t i) { (i == 0 ? scene.moving : scene.fixed[i - 1])->prepared<Hierarchy>(); });
 }
 
-/// The experiment's profiles, and what was chosen where they leave the cutoff open.
+/// The experiment's profiles, with the cutoff chosen where they give none.
 struct Profiles {
   std::vector<PreparedProfile> profiles;
   std::vector<DefaultNote> defaults;
@@ -61,7 +61,7 @@ struct Profiles {
 
 Profiles profiles_of(const Experiment& experiment, const LoadedScene& loaded) {
   Profiles result;
-  std::optional<double> open_cutoff;  // of profiles that give none
+  std::optional<double> open_cutoff;  // of profiles without one
   for (std::size_t i = 0; i < experiment.profiles.size(); ++i) {
     const ForceChoice& choice = experiment.profiles[i];
     const std::string place = choice.name.empty() ? "/force" : fmt::format("/force/{}", i);
@@ -77,7 +77,7 @@ Profiles profiles_of(const Experiment& experiment, const LoadedScene& loaded) {
   return result;
 }
 
-/// Of the methods from outside that the experiment names.
+/// Files of the experiment's methods from outside.
 std::set<std::filesystem::path> plugin_files(const Experiment& experiment) {
   std::set<std::filesystem::path> files;
   for (const MethodChoice& choice : experiment.methods) files.insert(method_description(choice.name).plugin);
@@ -85,7 +85,7 @@ std::set<std::filesystem::path> plugin_files(const Experiment& experiment) {
   return files;
 }
 
-/// For the provenance: a line a file.
+/// For the provenance: one entry a file.
 std::vector<InputFile> mesh_files(const std::vector<MeshNote>& notes) {
   std::vector<InputFile> files;
   for (const MeshNote& note : notes) {
@@ -131,7 +131,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
   if (path) prepared.files.push_back(path->file);
   append(prepared.files, plugins);
   if (!path) {
-    // Near enough for every profile.
+    // Near enough for the profile with the least cutoff, and so for all.
     const auto& [name, force, scene, aggregation] = *std::ranges::min_element(
         prepared.profiles, {}, [](const PreparedProfile& profile) { return profile.force.cutoff; });
     path = make_path(experiment, scene, progress);
@@ -195,7 +195,7 @@ std::vector<std::filesystem::path> input_files(const Experiment& experiment) {
     files.push_back(is_mesh_name(object.mesh) ? built_mesh_file(experiment.mesh_folder, object.mesh)
                                               : folder / object.mesh);
     if (!object.deformation) continue;
-    std::error_code none;  // A folder that is not there has no file; loading it says so.
+    std::error_code none;  // Loading reports a missing folder.
     if (!object.deformation->folder.empty() &&
         !std::filesystem::is_directory(object.deformation->folder, none))
       continue;

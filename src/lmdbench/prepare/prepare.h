@@ -18,18 +18,18 @@
 
 namespace lmdbench {
 
-/// A force profile with the scene that it reaches into: the meshes under its cutoff, which all profiles share.
+/// A force profile with its scene: the meshes under its cutoff. All profiles share the meshes.
 struct PreparedProfile {
-  std::string name;    ///< Empty for one alone.
+  std::string name;    ///< Empty for a single one.
   ForceProfile force;  ///< Its law is each method's own.
   Scene scene;
   const Aggregation* aggregation = &sum_law();
 };
 
-/// What who prepares a run makes of meshes that deform, and of several that move.
+/// Treatment of deforming meshes and several movers by the caller of `prepare`.
 enum class Deforming : std::uint8_t {
-  REFUSED,  ///< Looks at one moving mesh and at meshes at rest alone: an error where one deforms, or another moves.
-  FOLLOWED  ///< Takes each frame at its shape and its poses (DriverInput::motion).
+  REFUSED,  ///< For callers of one moving mesh at rest: an error otherwise.
+  FOLLOWED  ///< Each frame has its shape and poses (DriverInput::motion).
 };
 
 /// An experiment's inputs, loaded: all that a run works on.
@@ -40,29 +40,29 @@ struct PreparedRun {
   std::vector<MeshNote> meshes = {};  ///< One an object.
   std::vector<InputFile> files = {};  ///< For the provenance.
   bool starts_touching = false;       ///< Triangles touch in the first frame.
-  std::vector<std::string> warnings =
-      {};  ///< What was done to the meshes and flaws that methods can live with.
-  std::vector<RecordingGap> path_gaps = {};   ///< Intervals of the path in which the mesh is held.
-  std::optional<GrazingPath> made_path = {};  ///< Where the experiment names no path.
-  std::vector<DefaultNote> defaults = {};     ///< What the file leaves open, with the values of this scene.
+  /// Changes of the meshes, and flaws that methods tolerate.
+  std::vector<std::string> warnings = {};
+  std::vector<RecordingGap> path_gaps = {};   ///< Intervals in which the pose is held.
+  std::optional<GrazingPath> made_path = {};  ///< If the experiment names no path.
+  std::vector<DefaultNote> defaults = {};     ///< Values that the file leaves open.
 
   /// The meshes under the first profile's cutoff.
   const Scene& scene() const { return profiles.front().scene; }
 };
 
-/// Loads meshes and path; makes a path where the experiment names none. Open and non-manifold meshes and a start
-/// in contact are noted, not refused.
-/// @param progress of making a path; may stop it by returning false, which throws Interrupted
-/// @throws InputError for a mesh or path that cannot be used, UsageError for a profile that does not
-///         fit the mesh, and for meshes that deform where they are refused
+/// Loads meshes and path; makes a path where the experiment names none. Open and non-manifold
+/// meshes and a start in contact are noted, not refused.
+/// @param progress of making a path; false stops it: throws Interrupted
+/// @throws InputError for an unusable mesh or path, UsageError for a profile that does not fit the
+///         mesh, and for deforming meshes where they are refused
 PreparedRun prepare(const Experiment& experiment, const Progress& progress = {},
                     Deforming deforming = Deforming::REFUSED);
 
-/// Lets all but the moving mesh stay where it is in the first frame, in the shape that it has there.
+/// Fixes all but the moving mesh at place and shape of the first frame.
 void hold_first_frame(PreparedRun& prepared);
 
-/// Files that the experiment will read, as far as its text tells: itself, path, manifest, meshes; some may be
-/// missing. For outputs, which must replace none of them.
+/// Files that the experiment will read, by its text: itself, path, manifest, meshes; some may be
+/// missing. Outputs must replace none of them.
 std::vector<std::filesystem::path> input_files(const Experiment& experiment);
 
 /// The experiment's methods on the prepared scene.

@@ -21,9 +21,9 @@
 namespace lmdbench {
 namespace {
 
-/// Of the gap: the approach ends within this part of it.
+/// The approach ends within this part of the gap.
 constexpr double GAP_TOLERANCE = 1e-6;
-/// Of the gap: half of a difference's step.
+/// Half of a difference's step, as a part of the gap.
 constexpr double DIFFERENCE_SHARE = 1e-4;
 
 /// Direction i of n on a Fibonacci lattice.
@@ -34,7 +34,7 @@ Vec3 lattice_direction(int i, int n) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-/// The sequence of orientations: the file's, then random ones that are the same in every run (uniform: Shoemake 1992).
+/// Sequence of orientations: the file's, then uniform random ones (Shoemake 1992), always the same.
 Eigen::Quaterniond orientation(int i) {
   if (i == 0) return Eigen::Quaterniond::Identity();
   std::mt19937_64 random(static_cast<std::uint64_t>(i));
@@ -45,7 +45,7 @@ Eigen::Quaterniond orientation(int i) {
           std::sqrt(u) * std::sin(b)};
 }
 
-/// Looks at the exact set's force.
+/// Computes the exact set's force.
 class RestingWrenches {
  public:
   RestingWrenches(const Scene& scene, const ForceProfile& profile)
@@ -66,12 +66,12 @@ class RestingWrenches {
   LmdSet lmds_;
 };
 
-/// Where the mesh, coming in along the direction, first has the gap from any of the fixed ones.
+/// Pose at which the mesh, coming in along the direction, first has the gap to a fixed one.
 std::optional<Pose> approach(const Scene& scene, const Eigen::Quaterniond& R_WM, const Vec3& from_W,
                              double gap) {
   Pose pose;
   pose.rotation = R_WM;
-  // The boxes' centres on one line, as far as there is one: meshes need not stand about their origins.
+  // The boxes' centres on one line, if possible: meshes need not be about their origins.
   const Vec3 centre_M = bounding_box_centre(scene.moving->surface().mesh);
   pose.translation = bounding_box_centre(scene.fixed.front()->surface().mesh) - R_WM * centre_M;
   double reach = -std::numeric_limits<double>::infinity();
@@ -85,8 +85,8 @@ std::optional<Pose> approach(const Scene& scene, const Eigen::Quaterniond& R_WM,
   return pose;
 }
 
-/// The pose as a place to rest; nothing where it has no force to rest on, or too few contacts to be better than `best`, whatever
-/// its six neighbours show: on flat parts each of them costs as much as the pose itself.
+/// Judges a pose as a place to rest. None without a force, or with too few contacts to beat `best`,
+/// whatever its six neighbours show: on flat parts each costs as much as the pose.
 std::optional<RestingPose> look_at_pose(RestingWrenches& wrenches, const Pose& X_WM, double gap,
                                         const std::optional<RestingPose>& best) {
   const Wrench wrench = wrenches.at(X_WM);

@@ -9,35 +9,35 @@
 
 #include <cstddef>
 
-/// A pose at which the moving mesh can rest on the fixed ones, for `lmdbench stability`: `lmdbench init --contact` writes it.
+/// A pose where the moving mesh can rest on the fixed ones, for `lmdbench stability` and `init`.
 ///
-/// The moving mesh comes in from REST_DIRECTIONS directions, evenly spread, in orientations of a fixed sequence that begins with the
-/// file's, to the gap that lies REST_SHARE of the way from the saturation distance to the cutoff: there it can swing either way. A device
-/// that is pressed on by the force that balances the contact stays there where the force brings it back from every side, so that the
-/// symmetric part of -dF/dx, taken by differences of the exact set's force, has no eigenvalue clearly below 0 (corner on corner has
-/// one, -F/d: it slides off). Of the poses with none below -SLIDING_SHARE of K_eff the one with the most contacts is taken, and among
-/// those the one that is held best.
+/// The moving mesh comes in from REST_DIRECTIONS evenly spread directions, in orientations of a
+/// fixed sequence that begins with the file's, to the gap at REST_SHARE of the way from the
+/// saturation distance to the cutoff: there it can swing both ways. Under the balancing force it
+/// stays if the contact returns it from every side: if the symmetric part of -dF/dx, by differences
+/// of the exact set's force, has no eigenvalue clearly below 0 (corner on corner: -F/d, it slides).
+/// Of the poses with none below -SLIDING_SHARE of K_eff one with most contacts is taken, then the
+/// best held.
 namespace lmdbench {
 
 inline constexpr int REST_DIRECTIONS = 64;
-inline constexpr int REST_ORIENTATIONS = 6;  ///< That are tried until one has a pose that does not slide.
+inline constexpr int REST_ORIENTATIONS = 6;  ///< Most tried, until a pose does not slide.
 inline constexpr double REST_SHARE = 0.5;
 inline constexpr double SLIDING_SHARE = 0.02;
 
 struct RestingPose {
-  Pose pose;                       ///< X_WM
-  double gap = 0.0;                ///< Smallest distance there [m].
-  std::size_t contacts = 0;        ///< LMDs within the cutoff.
-  Vec3 force_W = Vec3::Zero();     ///< On the moving mesh, under the profile [N].
-  double stiffness_n_per_m = 0.0;  ///< K_eff
-  double least_stiffness_share =
-      0;          ///< Least eigenvalue of -dF/dx over K_eff: below 0 it slides off without a hand.
-  int tried = 0;  ///< Poses.
+  Pose pose;                         ///< X_WM
+  double gap = 0.0;                  ///< Smallest distance there [m].
+  std::size_t contacts = 0;          ///< LMDs within the cutoff.
+  Vec3 force_W = Vec3::Zero();       ///< On the moving mesh, under the profile [N].
+  double stiffness_n_per_m = 0.0;    ///< K_eff
+  double least_stiffness_share = 0;  ///< Least eigenvalue of -dF/dx over K_eff; < 0: slides.
+  int tried = 0;                     ///< Number of poses.
 
   bool slides() const { return least_stiffness_share < -SLIDING_SHARE; }
 };
 
-/// @param profile  with its law; F_max does not matter
+/// @param profile  with its law; F_max has no effect
 /// @throws InputError where no pose has a contact with a force; Interrupted
 RestingPose find_resting_pose(const Scene& scene, const ForceProfile& profile, const Progress& progress = {});
 

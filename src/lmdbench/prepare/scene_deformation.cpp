@@ -13,7 +13,7 @@
 namespace lmdbench {
 namespace {
 
-/// Goes through the frames of a body.
+/// Goes through a body's frames.
 void follow(DeformingBody& body, std::int64_t frames) {
   Surface surface = body.rest->surface();
   const std::vector<Vec3> at_rest = surface.mesh.vertices;

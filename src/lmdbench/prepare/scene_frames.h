@@ -12,32 +12,32 @@
 
 namespace lmdbench {
 
-/// What of a scene is a function of the frame, but for the pose of the moving mesh.
+/// All of a scene that depends on the frame, except the pose of the moving mesh.
 struct SceneMotion {
-  std::shared_ptr<const MoverPlay> movers = nullptr;              ///< Null where one mesh moves.
-  std::shared_ptr<const SceneDeformation> deformation = nullptr;  ///< Null where all meshes are rigid.
+  std::shared_ptr<const MoverPlay> movers = nullptr;              ///< Null where only one moves.
+  std::shared_ptr<const SceneDeformation> deformation = nullptr;  ///< Null where all are rigid.
 
   bool is_any() const { return movers != nullptr || deformation != nullptr; }
 };
 
-/// The scene in one frame after the other, for one user: where everything is but the moving mesh, and the shape of what deforms. Bodies that
-/// deform are copies of their own, so what a method has prepared of them follows for it alone, and what that takes is its own.
+/// The scene frame by frame, for one user: all poses but the moving mesh's, and all shapes. Bodies
+/// that deform are own copies, so what a method prepared of them follows for it alone, at its cost.
 class SceneFrames {
  public:
   /// Begins in the first frame, with meshes at rest.
-  /// @param rest with the movers of `motion` in it
+  /// @param rest includes the movers of `motion`
   SceneFrames(const Scene& rest, const SceneMotion& motion);
 
   const Scene& scene() const { return scene_; }
   bool deforms() const { return motion_.deformation != nullptr; }
   bool is_any() const { return motion_.is_any(); }
 
-  /// What the first step costs beyond any other (Body::deform). For after the preparations were asked for.
+  /// The extra cost of the first step (Body::deform). Call it after all preparations.
   void prepare_to_deform();
-  /// Goes to a frame; frames may come in any order, and beyond the last one the scene stays.
-  /// @return what the bodies and all that was prepared of them took to follow [s]; making the vertices is no part of it
+  /// Goes to a frame. Frames may come in any order; after the last one the scene does not change.
+  /// @return time for bodies and preparations to follow [s], without the making of the vertices
   double to_frame(std::int64_t frame);
-  /// Movers alone; shapes stay.
+  /// Only moves movers; shapes stay.
   void move_to_frame(std::int64_t frame);
 
  private:

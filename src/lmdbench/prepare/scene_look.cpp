@@ -20,7 +20,7 @@
 namespace lmdbench {
 namespace {
 
-/// A mesh, its box, outside of which nothing is inside the mesh, and where it stands.
+/// A mesh with its pose and its box, which bounds the points inside the mesh.
 class BoxedMesh {
  public:
   BoxedMesh(const SceneLook::Mesh& look, const FixedBody& body)
@@ -40,7 +40,7 @@ class BoxedMesh {
   Eigen::AlignedBox3d box_;
 };
 
-/// Of the frames that are looked at: those of them in which something holds, and the first.
+/// Counts the tested frames in which something holds, and keeps the first.
 struct FramesOf {
   std::int64_t count = 0, first = -1;
 
@@ -108,7 +108,7 @@ void look_at_cutoff(SceneLook& look) {
          "lower /force/cutoff_m, which is in metres, or check scale and diagonal_m"});
 }
 
-/// The object before this one that is the same mesh and stands at the same place.
+/// The earlier object with the same mesh at the same place.
 std::optional<std::size_t> coincident_object(const Experiment& experiment, const std::vector<MeshNote>& notes,
                                              std::size_t index) {
   const ObjectChoice& choice = experiment.objects[index];
@@ -121,7 +121,7 @@ std::optional<std::size_t> coincident_object(const Experiment& experiment, const
   return std::nullopt;
 }
 
-/// What stands at one place twice has each of its contacts twice.
+/// An object at one place twice has each of its contacts twice.
 void look_at_entries(SceneLook& look, const Experiment& experiment, const PreparedRun& prepared) {
   std::int64_t coincident = 0;
   std::string first;
@@ -138,10 +138,10 @@ void look_at_entries(SceneLook& look, const Experiment& experiment, const Prepar
          "remove the entry, or move it by its \"pose\""});
 }
 
-/// Distances do not tell inside from outside.
+/// Distances cannot tell inside from outside.
 void look_inside(SceneLook& look, const Experiment& experiment, const PreparedRun& prepared) {
-  if (prepared.input.motion.movers) return;  // each of which would have to be looked at
-  if (experiment.is_world()) return;         // where meshes may well be in each other
+  if (prepared.input.motion.movers) return;  // too many pairs to test
+  if (experiment.is_world()) return;         // instances may well overlap
   SceneFrames bodies(prepared.scene(), prepared.input.motion);
   const std::size_t fixed_count = bodies.scene().fixed.size();
   std::vector<BoxedMesh> boxed;  // the moving mesh, then the fixed ones
@@ -193,7 +193,7 @@ void look_inside(SceneLook& look, const Experiment& experiment, const PreparedRu
   }
 }
 
-/// @param path place of its file in the experiment
+/// @param path JSON pointer of its file
 void look_at_path(SceneLook& look, const std::string& path, const PreparedRun& prepared) {
   if (!prepared.path_gaps.empty()) {
     const auto longest = std::max_element(
@@ -253,7 +253,7 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   look.warnings = warnings_of_sizes(look.meshes);
   look_at_cutoff(look);
   look_at_entries(look, experiment, prepared);
-  // In a closed loop the path is what the hand means: it may well lie inside.
+  // In a closed loop the path is the hand's intent, which may lie inside.
   if (!experiment.loop.closed) {
     look_inside(look, experiment, prepared);
     look_at_path(look, experiment.held().motion.path_place, prepared);
@@ -313,7 +313,7 @@ nlohmann::ordered_json to_json(const SceneLook& look) {
 
 namespace {
 
-/// Mean seconds of a search at frames spread over the path, each at its shape.
+/// Mean seconds of a search at frames spread over the path, each with its shape.
 double search_seconds(Method& method, SceneFrames& bodies, const std::vector<Pose>& poses) {
   const auto count = static_cast<std::int64_t>(poses.size());
   const std::int64_t samples = std::min(TIMED_FRAMES, count);
@@ -337,7 +337,7 @@ std::vector<ExpectedTime> expected_times(const Experiment& experiment, const Pre
   for (const MethodChoice& choice : experiment.methods) {
     SceneFrames bodies(prepared.profiles[choice.profile].scene, prepared.input.motion);
     const auto method = make_method(choice.name, bodies.scene(), choice.options);
-    // Where meshes deform the local update makes the method anew, which costs as much as a search.
+    // Where meshes deform, a local update makes the method anew: as much as a search.
     const double searches = method->description().tracks_locally && !bodies.deforms()
                                 ? frames / static_cast<double>(experiment.driver.search_every_frames)
                                 : frames;
@@ -347,7 +347,7 @@ std::vector<ExpectedTime> expected_times(const Experiment& experiment, const Pre
   if (const std::int64_t stride = experiment.probe_stride("truth"); stride > 0) {
     SceneFrames bodies(prepared.scene(), prepared.input.motion);
     const auto truth = make_method("exhaustive", bodies.scene());
-    // Two searches a probed frame: the next frame's force tells the true jump.
+    // Two searches a probed frame: the true jump needs the next frame's force.
     times.push_back({"truth", 2.0 * frames / static_cast<double>(stride) *
                                   search_seconds(*truth, bodies, prepared.input.poses)});
   }

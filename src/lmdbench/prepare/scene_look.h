@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-/// A look at the inputs before a run: what they are, and what they should not be. Nothing here stops a run, for
-/// every odd scene is somebody's experiment; but none passes in silence.
+/// A look at the inputs before a run: what they are, and what is suspicious. Nothing here stops a
+/// run, since every odd scene is somebody's experiment.
 namespace lmdbench {
 
-/// Something that is likely not meant, with its figure.
+/// Something that is likely a mistake, with its number.
 struct SceneWarning {
   std::string what;
   std::string remedy;
@@ -28,13 +28,13 @@ std::string to_text(const SceneWarning& warning);
 
 /// Diagonals that differ by more than this are likely in different units.
 inline constexpr double UNLIKELY_SIZE_RATIO = 100.0;
-/// Of one unit, diagonals whose ratio is within this factor of 25.4 may be in inches and millimetres.
+/// In one unit, diagonals with a ratio within this factor of 25.4 may be in inches and millimetres.
 inline constexpr double INCH_RATIO_FACTOR = 1.5;
-/// A mesh that is larger than this is likely not in metres, where nothing says that it is [m].
+/// A larger mesh is likely not in metres, unless its unit is given [m].
 inline constexpr double UNLIKELY_SIZE = 3.0;
-/// Frames in which it is looked whether one mesh is inside the other: evenly spread over the path.
+/// Frames tested for one mesh inside the other: evenly spread over the path.
 inline constexpr std::int64_t INSIDE_SAMPLES = 32;
-/// A stage's time before it is run.
+/// Expected time of a stage.
 struct ExpectedTime {
   std::string stage;
   double seconds = 0.0;
@@ -47,27 +47,27 @@ struct SceneLook {
     std::int64_t triangles = 0;
     double diagonal = 0.0;  ///< metres
     bool closed = false;
-    std::int64_t instances = 0;  ///< 0: it stands in the world frame.
-    /// Metres that a unit of its file is taken for; nothing where the experiment gives its size.
+    std::int64_t instances = 0;  ///< 0: it is in the world frame.
+    /// Metres assumed for a unit of its file; unset where the experiment gives its size.
     std::optional<double> unit = 1.0;
-    bool unit_is_said = false;  ///< By the experiment or by the file's format.
+    bool unit_is_said = false;  ///< Given by the experiment or the file's format.
   };
   std::vector<Mesh> meshes;
   double cutoff = 0.0;         ///< metres
   double saturation = 0.0;     ///< metres
   double maximum_force = 0.0;  ///< Of one LMD [N].
-  double force_limit = 0.0;    ///< The sum is clipped to it [N].
+  double force_limit = 0.0;    ///< Limit of the sum [N].
   std::int64_t frames = 0;
   std::int64_t frames_in_contact = 0;
-  /// Where no frame is in contact: how near the path comes [m], and in which frame.
+  /// Without a frame in contact: the least distance of the path [m], and its frame.
   double nearest = std::numeric_limits<double>::quiet_NaN();
   std::int64_t nearest_frame = -1;
   std::vector<DefaultNote> defaults;
   std::vector<SceneWarning> warnings;
-  std::vector<ExpectedTime> times;  ///< Empty where nobody asked.
+  std::vector<ExpectedTime> times;  ///< Empty if not asked for.
 };
 
-/// Sizes that tell of a unit that is not what it is taken for, of meshes that are loaded.
+/// Warnings of loaded meshes whose sizes suggest another unit.
 std::vector<SceneWarning> size_warnings(const Experiment& experiment, const std::vector<MeshNote>& notes);
 
 /// @param in_contact  one a frame of the path (contact.h)
@@ -81,8 +81,8 @@ nlohmann::ordered_json to_json(const SceneLook& look);
 /// Frames of the path at which a search is timed.
 inline constexpr std::int64_t TIMED_FRAMES = 8;
 
-/// What a run will take, from searches at a few frames: each method's searches from scratch (tracking, coherence
-/// and FCL are not in it) and the truth probe. Good to a factor of a few.
+/// Expected times of a run, from searches at a few frames: each method's searches from scratch
+/// (without tracking, coherence and FCL) and the truth probe. Right within a factor of a few.
 std::vector<ExpectedTime> expected_times(const Experiment& experiment, const PreparedRun& prepared);
 
 }  // namespace lmdbench

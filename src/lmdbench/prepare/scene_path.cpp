@@ -21,13 +21,13 @@
 namespace lmdbench {
 namespace {
 
-/// Of the diagonal: vertices this little before a face are in its plane, as rounding leaves them.
+/// A vertex this little in front of a face is in its plane (rounding), in diagonals.
 constexpr double CONVEX_TOLERANCE = 1e-7;
 constexpr std::size_t MOST_CONVEX_TRIANGLES = 2000;
-/// Of a made path's poses every so many are looked at for their contacts.
+/// Every so many poses of a made path are searched for contacts.
 constexpr std::size_t CONTACT_STRIDE = 5;
 
-/// Movers times frames: what is kept of them in memory and in the result.
+/// Movers times frames: bounds memory and result.
 constexpr std::size_t MOST_MOVER_POSES = 10000000;
 
 /// @param role of the file in the provenance
@@ -36,7 +36,7 @@ FramePath read_path(const ObjectMotion& motion, const std::string& role, double 
   const FileContent content = read_input_file(motion.path_file, {.what = "path"});
   const PathInterpolator path(parse_tum(content.bytes, motion.path_file.string()), motion.interpolation,
                               motion.gap_intervals);
-  // A path that is cut by "frames" may be longer than any run.
+  // A path cut by "frames" may be longer than any run.
   refuse_too_many_frames(path, rate, wanted, motion.path_file.string());
   return {resample(path, rate, wanted),
           {role, motion.path_file, content.sha256, static_cast<std::int64_t>(content.bytes.size())},
@@ -48,7 +48,7 @@ std::optional<std::size_t> wanted_frames(const Experiment& experiment) {
   return experiment.frames ? std::optional(static_cast<std::size_t>(*experiment.frames)) : std::nullopt;
 }
 
-/// Frames of a way there and back until there are so many.
+/// Repeats the frames there and back until there are so many.
 template <typename Frame>
 void there_and_back(std::vector<Frame>& frames, std::size_t wanted) {
   const std::size_t way = frames.size() - 1;
@@ -67,7 +67,7 @@ double least_diagonal(const Scene& scene) {
   return least;
 }
 
-/// Every vertex lies behind every face. Two such meshes have at most one LMD. Of large meshes nobody asks: no.
+/// Whether every vertex lies behind every face. Such a pair has at most one LMD. Large meshes: no.
 bool is_convex(const Surface& surface) {
   if (surface.mesh.triangles.size() > MOST_CONVEX_TRIANGLES) return false;
   const double slack = CONVEX_TOLERANCE * bounding_box_diagonal(surface.mesh);
@@ -79,7 +79,7 @@ bool is_convex(const Surface& surface) {
   return true;
 }
 
-/// LMDs in the median frame of those in contact.
+/// Median number of LMDs of the frames in contact.
 double median_contacts(const Scene& scene, const Path& path) {
   const std::unique_ptr<Method> method = make_method("certified", scene);
   std::vector<double> counts;
@@ -104,7 +104,7 @@ GrazingPath grazing_path_of(const Experiment& experiment, const Scene& scene, co
                      fmt::format("give a cutoff in metres, of a hundredth of the mesh or so ({:.3g}), or "
                                  "leave it out; check scale",
                                  0.01 * smallest));
-  TriangleMesh fixed;  // all of them as one
+  TriangleMesh fixed;  // all as one
   for (const auto& body : scene.fixed) {
     const TriangleMesh mesh = placed_mesh(body);
     const auto first = static_cast<std::int32_t>(fixed.vertices.size());
@@ -161,7 +161,7 @@ MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& m
                      fmt::format("{} movers in {} frames: more than {} poses", movers.size(), held.size(),
                                  MOST_MOVER_POSES),
                      "ask for fewer movers or frames");
-  std::vector<Pose> read;  // of the object under way
+  std::vector<Pose> read;  // of the current object
   for (const Mover& mover : movers) {
     std::vector<Pose>& own = result.of_mover.emplace_back();
     const ObjectChoice& object = experiment.objects[mover.object];

@@ -15,30 +15,30 @@
 
 namespace lmdbench {
 
-/// A path at the frames of a run, and where it comes from.
+/// A path at the frames of a run, and its origin.
 struct FramePath {
   Path frames;
   InputFile file;                   ///< For the provenance.
-  std::vector<RecordingGap> gaps;   ///< Intervals in which the mesh is held.
-  std::optional<GrazingPath> made;  ///< Where the experiment names none.
+  std::vector<RecordingGap> gaps;   ///< Intervals in which the pose is held.
+  std::optional<GrazingPath> made;  ///< If the experiment names none.
 };
 
 /// The held object's path.
-/// @throws InputError for a path that cannot be used
+/// @throws InputError for an unusable path
 FramePath read_held_path(const Experiment& experiment);
 
 /// A path for a scene that has none.
-/// @param progress may stop it by returning false, which throws Interrupted
-/// @throws UsageError for a cutoff that no path grazes
+/// @param progress may return false to stop it, which throws Interrupted
+/// @throws UsageError for a cutoff at which no path grazes
 FramePath make_path(const Experiment& experiment, const Scene& scene, const Progress& progress);
 
-/// What is said of a path that was made.
+/// The note about a path that was made.
 DefaultNote note_of(const GrazingPath& made, double cutoff);
 
-/// The path there and back until the run is over.
+/// Repeats the path there and back until the run's end.
 void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame_rate_hz, double seconds);
 
-/// Where all movers are in each frame, with the files of their paths and what was done to them.
+/// Poses of all movers in each frame, with the files of their paths and warnings.
 struct MoverPoses {
   std::vector<std::vector<Pose>> of_mover;
   std::vector<InputFile> files;
@@ -46,8 +46,8 @@ struct MoverPoses {
 };
 
 /// @param held poses of the held object
-/// @param path_frames of its path, which it may take there and back; so do those that have paths of their own
-/// @throws InputError for a path that cannot be used or ends before the held one; UsageError for more poses than memory holds
+/// @param path_frames of its path, which it may repeat there and back, as the other movers then do
+/// @throws InputError for a bad or too short path; UsageError for more poses than memory holds
 MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& movers,
                        const std::vector<Pose>& held, std::size_t path_frames);
 

@@ -54,7 +54,7 @@ std::vector<std::string> mesh_warnings(const Experiment& experiment, const std::
           fmt::format("{} of {} instances are just where an earlier one is: each of their LMDs is there once "
                       "an instance",
                       coincident, note.instances.size()));
-    // What there is to say of a mesh is said once.
+    // A mesh used twice gets its warnings once.
     if (earlier_body(experiment, i)) continue;
     if (note.flattening.moved_vertices > 0) warn(to_text(note.flattening));
     if (note.orientation.choice == OrientationChoice::OUTWARD) warn(to_text(note.orientation));

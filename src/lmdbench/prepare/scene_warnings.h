@@ -9,19 +9,19 @@
 #include <string>
 #include <vector>
 
-/// What was done to the meshes of a scene, and flaws that methods can live with.
+/// Changes made to the meshes of a scene, and flaws that methods can live with.
 namespace lmdbench {
 
-/// What deforming does to triangles.
+/// Triangles that deforming turns over or flattens.
 /// @param deformation of the scene; may be null
-/// @param path_is_made for the meshes at rest
+/// @param path_is_made a made path is for the meshes at rest
 std::vector<std::string> deformation_warnings(const std::vector<MeshNote>& notes,
                                               const SceneDeformation* deformation, bool path_is_made);
 
-/// What reading the meshes did to them, and what they are.
+/// Changes made by reading the meshes, and their flaws.
 std::vector<std::string> mesh_warnings(const Experiment& experiment, const std::vector<MeshNote>& notes);
 
-/// What an aggregation other than the sum cannot keep to.
+/// Limits of aggregations other than the sum.
 std::vector<std::string> aggregation_warnings(const Experiment& experiment,
                                               const std::vector<MeshNote>& notes);
 

@@ -25,8 +25,8 @@
 namespace lmdbench {
 namespace {
 
-/// FCL's nearest pair: of instances one after the other, nearest boxes first, of movers pair by pair, nearest spheres first, each at the
-/// relative pose that methods see.
+/// FCL's nearest pair: of instances by nearest boxes first, of movers by pairs with nearest spheres
+/// first, each at the relative pose that methods see.
 class FclMinimum {
  public:
   explicit FclMinimum(const Scene& scene) : scene_(scene), near_(scene) {
@@ -43,7 +43,7 @@ class FclMinimum {
   FclResult at(const Pose& X_WM) {
     if (all_) return all_->distance(X_WM);
     FclResult best;
-    // Of equally near ones the first by its number, or whose spheres are nearer.
+    // Of equally near pairs the first by number, or the one with nearer spheres.
     const auto look = [&](const ObjectPair& pair, bool by_number) {
       const FclResult found = distance_of(pair, X_WM);
       const std::int32_t number = pair.number(scene_);
@@ -82,7 +82,7 @@ class FclMinimum {
   }
 
   const Scene& scene_;
-  std::optional<FclCrosscheck> all_;  ///< Of fixed meshes that are not placed.
+  std::optional<FclCrosscheck> all_;  ///< Of fixed meshes not placed.
   std::optional<BroadPhase> phase_;   ///< Of instances.
   NearPairs near_;                    ///< Of movers.
   std::map<std::pair<const Body*, const Body*>, FclCrosscheck> checks_;
@@ -91,8 +91,8 @@ class FclMinimum {
 /// Exact nearest pair of any two objects, frame after frame.
 class ExactMinimum {
  public:
-  /// @param warm  whether a search begins with the last one's triangles
-  /// @param moves whether anything but the moving mesh does
+  /// @param warm  whether a search starts from the last one's triangles
+  /// @param moves whether more than the moving mesh moves
   ExactMinimum(const Scene& scene, bool warm, bool moves) : scene_(scene), warm_(warm) {
     if (scene.several_move() || (scene.is_world() && moves))
       objects_.emplace(scene);
@@ -138,7 +138,7 @@ class ExactMinimum {
   std::vector<NearestTracker> trackers_;
 };
 
-/// What is known of a frame.
+/// The distances of a frame.
 struct FclAnswers {
   std::int64_t frame;
   const Pose& X_WM;
@@ -190,7 +190,7 @@ void add_fcl_frame(FclCheck& check, const FclAnswers& of,
   check.frames.push_back(std::move(row));
 }
 
-/// Not in the order in which the experiment lists its methods: the result must not depend on it.
+/// Not by the experiment's order of methods: the result must not depend on it.
 void sort_exceptions(FclCheck& check) {
   std::sort(check.exceptions.begin(), check.exceptions.end(),
             [](const FclException& a, const FclException& b) {
@@ -198,7 +198,7 @@ void sort_exceptions(FclCheck& check) {
             });
 }
 
-/// Names the bodies of an exception of several movers as files do.
+/// Names the bodies of several movers' exception as in files.
 void file_exception(FclException& exception, const Scene& scene, const Pose& X_WM, const MoverPlay& play) {
   Lmd pair;
   pair.fixed_body = exception.fixed_body;
@@ -225,8 +225,8 @@ std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const DriverInput& input
   std::vector<std::unique_ptr<Method>> instances;
   for (const DrivenMethod& method : methods) instances.push_back(method.make_for(bodies));
 
-  // Where meshes deform FCL's models are built anew in each frame: its refit from the leaves up gives wrong distances for RSS and
-  // OBBRSS, since RSS::operator+ takes one axis of the sum from an operand, so that its frame is not orthonormal (FCL 0.7.0).
+  // Deforming meshes get new FCL models in each frame: FCL's refit gives wrong distances for RSS
+  // and OBBRSS, since RSS::operator+ makes a frame that is not orthonormal (FCL 0.7.0).
   std::optional<FclMinimum> fcl;
   ExactMinimum exact(bodies.scene(), shortcuts.warm && !bodies.deforms(), bodies.is_any());
   auto made = std::make_unique<FclCheck>();
@@ -235,7 +235,7 @@ std::unique_ptr<FclCheck> probe_fcl(const Scene& scene, const DriverInput& input
   check.several_move = play != nullptr;
   WorkCounters ignored;
   LmdSet lmds;
-  std::size_t noted = 0;  // exceptions before those of the last frame
+  std::size_t noted = 0;  // number before the last frame's
   for (const std::int64_t frame : frames) {
     const Pose& X_WM = input.poses[static_cast<std::size_t>(frame)];
     if (shortcuts.reuse_repeated && !bodies.is_any() && !check.frames.empty() &&

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-/// The FCL cross-check: on a stride of frames FCL's minimum distance, the exact nearest pair of lmdbench and
-/// the minimum of each method's fresh search (age 0) stand side by side. Distances are compared only while
-/// the meshes are separated; in contact only the yes or no. A disagreement is a question for arbitration, but for
-/// methods that promise the complete set: of those the exact kernel judges by FCL's nearest triangles and by those of the
-/// exact search, in contact, too (nearest_judge.h), and who is wrong there is an error of the run.
+/// The FCL cross-check: on a stride of frames it compares FCL's minimum distance, the exact nearest
+/// pair of lmdbench and the minimum of each method's fresh search (age 0). Distances are compared
+/// only while the meshes are separated; in contact only the yes or no. A disagreement is a question
+/// for arbitration. But a method that promises the complete set fails the run, in contact too, if
+/// the exact kernel contradicts it at FCL's or the exact search's triangles (nearest_judge.h).
 namespace lmdbench {
 
 struct FclFrame {
@@ -21,7 +21,7 @@ struct FclFrame {
   double distance = UNSET;             ///< FCL [m]; 0 in contact.
   double lmdbench_distance = UNSET;    ///< Exact nearest pair [m].
   double relative_difference = UNSET;  ///< |FCL - exact| / exact; NaN unless both are separated.
-  bool separated = false;              ///< In FCL's opinion.
+  bool separated = false;              ///< According to FCL.
   bool agrees = false;                 ///< Within the tolerance, or both in contact.
   /// One a method: (method - FCL) / FCL; NaN in contact or beyond the cutoff; infinite
   /// where the method found no pair.
@@ -34,16 +34,16 @@ struct FclFrame {
 /// A comparison out of tolerance.
 struct FclException {
   std::int64_t frame = 0;
-  std::string who;          ///< Label of the method, or "lmdbench" for the exact nearest pair.
+  std::string who;          ///< Method's label, or "lmdbench" for the exact pair.
   Pose pose;                ///< X_WM, to paste back into a test.
-  double distance = UNSET;  ///< Theirs [m].
+  double distance = UNSET;  ///< Its distance [m].
   double fcl_distance = UNSET;
   double lmdbench_distance = UNSET;
   std::int32_t triangle_moving = -1;  ///< FCL's nearest pair.
   std::int32_t triangle_fixed = -1;
   std::int32_t fixed_body = -1;
-  std::int64_t moving_body = 0;  ///< Of several movers: whose pose this is.
-  bool is_error = false;         ///< Of a method that promises the complete set: contradicts_nearest.
+  std::int64_t moving_body = 0;  ///< Of several movers: the one with this pose.
+  bool is_error = false;         ///< Of a complete method: contradicts_nearest.
 };
 
 struct FclCheck : ProbeFindings {
@@ -55,10 +55,10 @@ struct FclCheck : ProbeFindings {
   std::vector<std::string> notes(const std::string& group) const override;
 };
 
-/// What leaves the answers as they are.
+/// Savings that leave the answers the same.
 struct ProbeShortcuts {
-  bool warm = true;            ///< The exact distance begins with the last frame's nearest triangles.
-  bool reuse_repeated = true;  ///< A frame at the pose of the one before it has its answers.
+  bool warm = true;            ///< Starts from the last frame's nearest triangles.
+  bool reuse_repeated = true;  ///< A repeated pose has the last frame's answers.
 };
 
 /// @throws Interrupted when `progress` asks to stop

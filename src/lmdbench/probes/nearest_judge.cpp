@@ -12,10 +12,10 @@
 namespace lmdbench {
 namespace {
 
-/// What the exact kernel says of named triangles.
+/// The exact kernel's result for named triangles.
 struct JudgedPair {
   double distance = std::numeric_limits<double>::infinity();  ///< [m]
-  bool owes_lmd = false;  ///< On the outer side of both: there has to be an LMD as near.
+  bool owes_lmd = false;  ///< On the outer side of both: an LMD as near must exist.
   ContactTolerance tolerance;
 };
 
@@ -31,7 +31,7 @@ bool owes_lmd(const NamedTriangles& named, const TrianglePairDistance& pair, dou
   const Eigen::Quaterniond& R_FM = named.X_FM.rotation;
   const Vec3 d = pair.point_b - pair.point_a;
   if (d.norm() > rounding) return is_outer(moving, f, R_FM.conjugate() * d) && is_outer(fixed, g, -d);
-  // Next to touch d says nothing: normals that face each other do.
+  // Near touch d has no direction: use normals that face each other.
   return (R_FM * moving.pseudo_normal(f)).dot(fixed.pseudo_normal(g)) < 0.0;
 }
 

@@ -10,7 +10,7 @@
 
 namespace lmdbench {
 
-/// Two triangles that somebody calls the nearest ones of a scene.
+/// Two triangles that a search names as the nearest ones of a scene.
 struct NamedTriangles {
   const Body& moving;
   const Body& fixed;
@@ -19,10 +19,10 @@ struct NamedTriangles {
   std::int32_t triangle_fixed = -1;
 };
 
-/// Whether a set that is to be complete contradicts the distance of the triangles named, which the exact kernel says: it has an LMD
-/// nearer than all of them, or none as near as two that face each other on their outer sides. (The nearest pair of closed meshes is an
-/// LMD unless one lies inside the other: DEFINITION.md.) Granted is what contacts that are one LMD may differ by (ContactTolerance),
-/// and `tolerance_relative`.
+/// Whether a set that should be complete contradicts the exact distance of the named triangles: it
+/// has an LMD nearer than all of them, or none as near as two that face each other on their outer
+/// sides. (The nearest pair of closed meshes is an LMD unless one is inside the other:
+/// DEFINITION.md.) Within ContactTolerance, as for contacts in one LMD, and `tolerance_relative`.
 /// @param nearest of the set [m]; NaN for an empty one
 /// @param cutoff  of the set [m]
 bool contradicts_nearest(double nearest, std::span<const NamedTriangles> named, double cutoff,

@@ -24,7 +24,7 @@ struct TracedLine {
   std::int64_t moving_body = 0;
 };
 
-/// Where objects of a scene of any kind intersect: pair by pair, each in the frame of the second.
+/// Intersections of the objects of any scene: pair by pair, each in the frame of the second.
 class SceneTracer {
  public:
   /// @param scene must outlive this
@@ -61,10 +61,10 @@ class SceneTracer {
 struct Polylines : ProbeFindings {
   bool several_move = false;
   std::vector<std::int64_t> frames;
-  std::vector<double> seconds;  ///< Of the walk and the chaining, on this thread's clock; one a frame.
-  std::vector<std::int64_t> line_offsets{0};  ///< Of frames in the lines.
+  std::vector<double> seconds;                ///< Of tracing, on this thread's clock; one a frame.
+  std::vector<std::int64_t> line_offsets{0};  ///< First line of each frame.
   std::vector<TracedLine> lines;
-  std::vector<std::int64_t> point_offsets{0};  ///< Of lines in the points.
+  std::vector<std::int64_t> point_offsets{0};  ///< First point of each line.
   std::vector<Vec3> points;
 };
 

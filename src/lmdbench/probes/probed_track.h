@@ -15,36 +15,36 @@
 
 namespace lmdbench {
 
-/// What a probe looks at: poses under one force profile and what the methods made of them.
+/// A probe's input: poses under one force profile, and the methods' records there.
 struct ProbedTrack {
   const ProbeChoice& choice;
   const PreparedProfile& profile;
-  const DriverInput& input;                  ///< `poses` are those that the methods saw.
+  const DriverInput& input;                  ///< `poses` as the methods saw them.
   const std::vector<bool>& in_contact;       ///< One a frame (contact.h).
   const Aggregation* aggregation;            ///< Of the profile.
-  std::vector<DrivenMethod> methods;         ///< Those that went along, ...
-  std::vector<const MethodChoice*> choices;  ///< ... as the experiment has them, ...
-  std::vector<const MethodRecord*> records;  ///< ... and what they left.
+  std::vector<DrivenMethod> methods;         ///< The methods of the track, ...
+  std::vector<const MethodChoice*> choices;  ///< ... their entries in the experiment, ...
+  std::vector<const MethodRecord*> records;  ///< ... and their records.
   const std::vector<RuleDecision>& rules;
-  std::vector<std::int64_t> frames;  ///< To look at.
-  Progress progress;                 ///< To be told after each of them (`tell_progress`).
+  std::vector<std::int64_t> frames;  ///< Frames to probe.
+  Progress progress;                 ///< Called after each of them (`tell_progress`).
 };
 
-/// Datasets of a table of findings, one a column, in the order of the calls.
+/// Datasets of a table of findings, one for each column, in the order of the calls.
 /// @tparam Findings the probe's own type
 template <typename Findings, typename Row>
 class ProbeTable {
  public:
   using Rows = const std::vector<Row>& (*)(const Findings& findings, std::size_t method);
 
-  /// @param group as of ProbeDataset::path
-  /// @param axis  what counts the rows, in results/README.md
+  /// @param group as in ProbeDataset::path
+  /// @param axis  name of the row count in results/README.md
   /// @param rows  of a track, or of one of its methods
   /// @param there whether findings have the table; null: always
   ProbeTable(std::string group, std::string axis, Rows rows, bool (*there)(const Findings&) = nullptr)
       : group_(std::move(group)), axis_(std::move(axis)), rows_(rows), there_(there) {}
 
-  /// @param value gives a number, flag, text, Vec3 or quaternion of a row, or of a row and a method
+  /// @param value gives a number, flag, text, Vec3 or quaternion from a row, or from row and method
   template <typename Value>
   ProbeTable& column(const std::string& name, std::string units, std::string long_name, Value value) {
     const auto of_row = [value](const Row& row, [[maybe_unused]] std::size_t method) {
@@ -69,7 +69,7 @@ class ProbeTable {
     return *this;
   }
 
-  /// Adds them to those of a probe.
+  /// Adds them to a probe's datasets.
   void into(std::vector<ProbeDataset>& datasets) const {
     datasets.insert(datasets.end(), datasets_.begin(), datasets_.end());
   }

@@ -53,8 +53,8 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input
   const auto rendered = [&](const Wrench& wrench) {
     return input.device.render(wrench, profile.largest_sum).force;
   };
-  std::optional<Pose> searched;  // where the last set was found, ...
-  TruthFrame last;               // ... and what was found
+  std::optional<Pose> searched;  // pose of the last search, ...
+  TruthFrame last;               // ... and its result
   const auto search = [&](std::int64_t frame) -> TruthFrame {
     const auto at = static_cast<std::size_t>(frame);
     const bool is_empty = in_contact != nullptr && !(*in_contact)[at];
@@ -101,7 +101,7 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
     comparison.force_error = (frame.force - true_force).norm();
     comparison.force_angle_error = force_angle(frame.force, true_force);
     const std::vector<Vec3>& forces = here.movers[static_cast<std::size_t>(law)];
-    // On the clock only what the device holds is rendered.
+    // Realtime runs render only the held object's force.
     for (std::size_t i = 0; i < forces.size() && !record.movers.empty(); ++i) {
       const Vec3& force = record.movers[at * forces.size() + i].force;
       comparison.force_error = std::max(comparison.force_error, (force - forces[i]).norm());
@@ -116,7 +116,7 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
 }
 
 std::optional<CompleteTruth> complete_truth(std::vector<ProbedRecord> candidates) {
-  // By label, so that another order of methods in the experiment is no other truth.
+  // By label, so that truth does not depend on the order of methods.
   std::sort(candidates.begin(), candidates.end(),
             [](const ProbedRecord& a, const ProbedRecord& b) { return a.record->label < b.record->label; });
   for (const auto& [record, probed] : candidates) {
@@ -133,12 +133,12 @@ std::optional<CompleteTruth> complete_truth(std::vector<ProbedRecord> candidates
 
 namespace {
 
-/// Of a method from outside.
+/// Whether a method from outside breaks its promise.
 bool breaks(Promise promise, const TruthComparison& row, double cutoff) {
-  constexpr double NEAREST_TOLERANCE = 1e-5;  // cutoffs; single precision will do
+  constexpr double NEAREST_TOLERANCE = 1e-5;  // cutoffs; suits single precision
   if (promise == Promise::COMPLETE_SET) return !row.same.exact();
   if (promise == Promise::APPROXIMATION || promise == Promise::FORCE_ONLY) return false;
-  // NaN: nothing is near, or only one of the two sees it.
+  // NaN: nothing is near, or only one of the two has a pair.
   if (std::isnan(row.minimum_distance_error)) return row.same.true_lmds + row.same.reported > 0;
   return std::abs(row.minimum_distance_error) > NEAREST_TOLERANCE * cutoff;
 }
@@ -163,7 +163,7 @@ std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
         found->comparisons.emplace_back(compare_with_truth(found->frames, record, law, track.profile.scene));
     if (method.promise == Promise::FORCE_ONLY)
       for (TruthComparison& row : rows) row.same = row.neighbours = {};
-    // The methods that promise the complete set and leave no doubt about it say what is true in every frame.
+    // Truth of every frame comes from methods that promise the complete set and keep the promise.
     if (!method.plugin.empty()) {
       const auto broken = std::ranges::count_if(rows, [&](const TruthComparison& row) {
         return breaks(method.promise, row, track.methods[i].profile.cutoff);
@@ -293,7 +293,7 @@ TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& 
       profile.law = law;
       truth.wrenches[static_cast<std::size_t>(law)].push_back(contacts.combine(set, profile, reference_W));
     }
-    // The frames at which an even spread of `checks` over `frames` steps on; the first one is among them.
+    // Spreads `checks` frames evenly over `frames`, the first one included.
     if (frame * checks / frames != (frame - 1) * checks / frames || (frame == 0 && checks > 0)) {
       other.clear();
       exhaustive->search(X_WM, other, ignored);

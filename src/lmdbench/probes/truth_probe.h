@@ -16,11 +16,12 @@
 #include <string>
 #include <vector>
 
-/// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and at the next
-/// one, outside the timed frames, and every method is compared with it. Force errors compare rendered forces
-/// (clipped by the same device) under the method's own law, so that they show what the LMD set costs and not
-/// what the law changes. The aggregation is the profile's, also for a method whose LMDs can only be summed. Where the meshes touch, a true LMD at distance 0 has no direction and adds no force,
-/// while a method in motion keeps its last direction (E12): the force errors of such frames say little.
+/// The truth probe: on a stride of frames the exhaustive LMD set is computed at the frame and the
+/// next, outside the timed frames, and every method is compared with it. Force errors compare
+/// rendered forces (clipped by the same device) under the method's own law: they show the effect of
+/// the LMD set, not of the law. The aggregation is the profile's, also for a method whose LMDs can
+/// only be summed. Where the meshes touch, a true LMD at distance 0 has no direction and adds no
+/// force, while a moving method keeps its last direction (E12): force errors there mean little.
 namespace lmdbench {
 
 /// Truth at one frame.
@@ -28,10 +29,10 @@ struct TruthFrame {
   std::int64_t frame = 0;
   LmdSet lmds;
   std::array<Vec3, FORCE_LAW_COUNT> force = no_forces();  ///< Rendered, under each law [N].
-  /// On the moving mesh before the device clips it, under each law [N m]; of `truth_frames` alone.
+  /// Torque on the moving mesh before clipping, under each law [N m]; only of `truth_frames`.
   std::array<Vec3, FORCE_LAW_COUNT> torque = no_forces();
   std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
-  ForcesByLaw movers;  ///< Where several meshes move: of each by its number, the moving mesh first [N].
+  ForcesByLaw movers;                                ///< Of movers, the moving mesh first [N].
 
   static std::array<Vec3, FORCE_LAW_COUNT> no_forces() {
     std::array<Vec3, FORCE_LAW_COUNT> forces;
@@ -42,41 +43,40 @@ struct TruthFrame {
 
 /// One method against one TruthFrame. NaN where a quantity does not exist.
 struct TruthComparison {
-  Agreement same;                         ///< Same features.
-  Agreement neighbours;                   ///< Neighbouring features count.
-  double minimum_distance_error = UNSET;  ///< Method's minus true [m]; NaN unless both see an LMD.
+  Agreement same;                         ///< Counts the same features.
+  Agreement neighbours;                   ///< Neighbouring features count, too.
+  double minimum_distance_error = UNSET;  ///< Method's minus true [m]; NaN without both.
   double force_error = UNSET;             ///< Length of the difference [N].
-  double force_angle_error = UNSET;       ///< Angle between the forces [rad]; NaN where one vanishes.
-  double force_jump = UNSET;              ///< The method's own |force at the next frame - force| [N].
+  double force_angle_error = UNSET;       ///< Between the forces [rad]; NaN if one vanishes.
+  double force_jump = UNSET;              ///< Of the method [N], as in TruthFrame.
 };
 
-/// The truth of every frame, where a method that finds the complete set in every frame ran along: what changes from a frame to
-/// the next is rare, and a probe on a stride sees hardly any of it. The probe's exhaustive sets, which share no search code with
-/// the method, say whether its sets stand.
+/// The truth of every frame, if a method that finds the complete set in every frame was run:
+/// changes between frames are rare, and a probe on a stride misses most. The probe's exhaustive
+/// sets, which share no search code with the method, check its sets.
 struct CompleteTruth {
   std::string label;  ///< Of the method.
   ForcesByLaw force;  ///< Rendered, one a frame under each law [N].
   std::vector<std::int64_t> lmd_count;
 };
 
-/// A method's record and what the probe found of it.
+/// A method's record and the probe's findings about it.
 struct ProbedRecord {
   const MethodRecord* record = nullptr;
   const std::vector<TruthComparison>* probed = nullptr;
 };
 
-/// The first by label of the methods that kept forces under both laws (MethodRecord::force_by_law), if the probe looked at some
-/// frames and its set was the exhaustive one in all of them.
+/// From the first method by label that kept forces under both laws (MethodRecord::force_by_law), if
+/// the probe looked at some frames and its set was exhaustive's in all of them.
 /// @param candidates methods that share poses and profile
 std::optional<CompleteTruth> complete_truth(std::vector<ProbedRecord> candidates);
 
-/// What the probe `truth` finds along a track.
+/// Findings of the probe `truth` along a track.
 struct TruthFindings : ProbeFindings {
   std::vector<TruthFrame> frames;
-  std::vector<std::vector<TruthComparison>>
-      comparisons;                        ///< One list a method of the track, one entry a frame.
-  std::optional<CompleteTruth> complete;  ///< Where a method of the track gives it.
-  std::vector<std::string> doubts;        ///< Of methods that promise the complete set.
+  std::vector<std::vector<TruthComparison>> comparisons;  ///< One list a method, one entry a frame.
+  std::optional<CompleteTruth> complete;                  ///< If a method of the track gives it.
+  std::vector<std::string> doubts;                        ///< Of methods that promise all LMDs.
 
   std::vector<std::string> notes(const std::string& /*group*/) const override { return doubts; }
 };
@@ -84,46 +84,46 @@ struct TruthFindings : ProbeFindings {
 /// Angle between two forces [rad]; NaN where one of them vanishes.
 double force_angle(const Vec3& a, const Vec3& b);
 
-/// Truth at the given frames, with the jump of the force to each one's next.
+/// Truth at the given frames, with the force's jump to the next frame.
 /// @param truth_at set and rendered forces of a frame
-/// @throws Interrupted when `progress` asked to stop
+/// @throws Interrupted when `progress` asks to stop
 std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
                                         const std::function<TruthFrame(std::int64_t frame)>& truth_at,
                                         const Progress& progress);
 
 /// Computes truth at the given frames.
-/// @param profile  the scene's; its law is ignored
-/// @param aggregation  makes the true forces of the exhaustive sets
-/// @param in_contact  one a frame, where frames out of contact are known to have an empty set; else null
-/// @param reuse_repeated  whether a frame at the pose of the one searched before it has its set without a search
-/// @param progress may stop the probe by returning false, which throws Interrupted
+/// @param profile  of the scene; its law is ignored
+/// @param aggregation  makes the true forces from the exhaustive sets
+/// @param in_contact  one a frame, if frames out of contact need no search (empty sets); or null
+/// @param reuse_repeated  whether a frame at the last searched pose takes that set
+/// @param progress may return false to stop the probe, which throws Interrupted
 std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input, const ForceProfile& profile,
                                     const Aggregation& aggregation, const std::vector<std::int64_t>& frames,
                                     const Progress& progress, const std::vector<bool>* in_contact = nullptr,
                                     bool reuse_repeated = true);
 
-/// @pre the record keeps the LMD sets of the truth's frames
+/// @pre the record has the LMD sets of the truth's frames
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
                                                 const MethodRecord& record, ForceLaw law, const Scene& scene);
 
-/// Truth in every frame. A probe on a stride sees every tenth event: rare jumps of the true force are missed and the
-/// methods look worse, or better, than they are. `certified` gives the true set in microseconds; `exhaustive`, which
-/// shares no search code with it, is asked at some frames whether that stands in this scene, too.
+/// Truth in every frame. A probe on a stride sees every tenth event, so methods look worse, or
+/// better, than they are. `certified` gives the true set in microseconds; `exhaustive`, which
+/// shares no search code with it, checks some frames of this scene.
 
 struct TrueSets {
-  std::vector<LmdSet> sets;  ///< One a frame, as is
+  std::vector<LmdSet> sets;  ///< One a frame, as are
   std::array<std::vector<Wrench>, FORCE_LAW_COUNT>
-      wrenches;                     ///< what the moving mesh feels of it under each law.
+      wrenches;                     ///< the moving mesh's wrenches from it under each law.
   std::int64_t checked_frames = 0;  ///< Compared with the exhaustive set.
-  std::int64_t wrong_frames = 0;    ///< Of these, with another set of feature pairs.
+  std::int64_t wrong_frames = 0;    ///< Those with another set of feature pairs.
 };
 
-/// @param checks   frames to compare with the exhaustive set, evenly spread; all where there are fewer
-/// @param progress may stop by returning false, which throws Interrupted
+/// @param checks   frames to compare with the exhaustive set, evenly spread, or all
+/// @param progress may return false to stop, which throws Interrupted
 TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress);
 
-/// The true forces of the sets at the frames from `first` on that have a next one.
-/// @param run whose profile and device render
+/// The true forces of the sets, at frames from `first` on that have a next one.
+/// @param run its profile and device render
 std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first);
 
 }  // namespace lmdbench

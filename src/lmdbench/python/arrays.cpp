@@ -30,7 +30,7 @@ std::string shape_text(const py::array& array) {
                    fmt::format("give {}", wanted));
 }
 
-/// Kinds of numpy's types: b, i, u, f, c, ...
+/// Whether the array's numpy kind is among these letters: b, i, u, f, c, ...
 bool holds(const py::array& array, std::string_view kinds) {
   return kinds.find(array.dtype().kind()) != std::string_view::npos;
 }
@@ -107,7 +107,7 @@ py::dtype make_lmd_dtype() {
 }  // namespace
 
 py::dtype lmd_dtype() {
-  // Never freed: its end would come after the interpreter's.
+  // Never freed: its destructor would run after the interpreter's end.
   static const auto* const DTYPE = new py::dtype(make_lmd_dtype());
   return *DTYPE;
 }

@@ -15,23 +15,23 @@
 #include <utility>
 #include <vector>
 
-/// Between numpy's arrays and the library's types. What comes in is checked and copied once; what goes out is a read-only
-/// view of the library's own memory.
+/// Between numpy's arrays and the library's types. Input is checked and copied once; output is a
+/// read-only view of the library's own memory.
 namespace lmdbench::python {
 
 namespace py = pybind11;
 
-/// An object that keeps what `shared` points to alive, for arrays that look into it.
+/// An object that keeps `shared` alive, for arrays that view its memory.
 template <class T>
 py::capsule kept(const std::shared_ptr<T>& shared) {
   return py::capsule(new std::shared_ptr<T>(shared),
                      [](void* held) { delete static_cast<std::shared_ptr<T>*>(held); });
 }
 
-/// Nobody but the library may write into its memory.
+/// Makes an array read-only: only the library may write into its memory.
 py::array read_only(py::array array);
 
-/// One-dimensional view of numbers; (n, k) of rows of k numbers (Vec3, std::array). `owner` keeps them alive.
+/// One-dimensional view of numbers; (n, k) for rows of k numbers. `owner` keeps them alive.
 template <class Row>
 py::array view_of(const std::vector<Row>& rows, const py::object& owner) {
   const auto count = static_cast<py::ssize_t>(rows.size());
@@ -47,25 +47,25 @@ py::array view_of(const std::vector<Row>& rows, const py::object& owner) {
   }
 }
 
-/// The same of rows that the array keeps.
+/// The same of rows that the array owns.
 template <class Row>
 py::array array_of(std::vector<Row> rows) {
   const auto shared = std::make_shared<std::vector<Row>>(std::move(rows));
   return view_of(*shared, kept(shared));
 }
 
-/// How an Lmd lies in memory, as numpy says it.
+/// Memory layout of an Lmd as a numpy type.
 py::dtype lmd_dtype();
 /// (n) structured view of a set.
 py::array lmds_view(const LmdSet& lmds, const py::object& owner);
 
 /// @param vertices  (V, 3) real numbers [m]
 /// @param triangles (T, 3) whole numbers
-/// @throws UsageError for another shape or kind; InputError for a number that is no vertex
+/// @throws UsageError for another shape or kind; InputError for an index of no vertex
 TriangleMesh mesh_of(const py::array& vertices, const py::array& triangles, const std::string& name);
 
 /// @param matrices (N, 4, 4) or (4, 4) rigid transforms; times count the poses
-/// @throws UsageError for another shape; InputError naming the pose that is no rigid transform
+/// @throws UsageError for another shape; InputError naming the pose that is not rigid
 Path poses_of(const py::array& matrices);
 py::array times_of(const Path& path);
 /// (N, 4, 4)

@@ -6,8 +6,8 @@
 
 namespace lmdbench::python {
 
-/// Adds the exceptions Error, UsageError, InputError and EnvironmentError to the module, each with the `exit_code` that the
-/// program would leave with, and makes every error of the library one of them, with its text.
+/// Adds the exceptions Error, UsageError, InputError and EnvironmentError to the module, each with
+/// the program's `exit_code`, and translates the library's errors into them, with their text.
 void register_errors(pybind11::module_& module);
 
 }  // namespace lmdbench::python

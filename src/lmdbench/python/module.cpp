@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The compiled part of the Python module: meshes, searches, forces and agreement over numpy arrays. What users see, with
-// shapes and units, is package/__init__.py; this part trusts its types, not its values.
+// The compiled part of the Python module: meshes, searches, forces and agreement of numpy arrays.
+// The users' interface is package/__init__.py; this part trusts its types, not its values.
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmdbench.h>
@@ -27,22 +27,22 @@ namespace {
 namespace py = pybind11;
 using Clock = std::chrono::steady_clock;
 
-/// Python's signals (Ctrl-C) are looked at this often while it does not run.
+/// Interval of checks for Python's signals (Ctrl-C) outside the interpreter.
 constexpr std::chrono::milliseconds BETWEEN_LOOKS_AT_SIGNALS{50};
 
-/// pybind11 would make a list of a bare Path.
+/// pybind11 would turn a bare Path into a list.
 struct Poses {
   Path path;
 };
 
-/// The sets of some poses, in the memory that the search left them in, and the scene whose features they name.
+/// The sets of some poses, in the search's memory, and the scene of their features.
 struct Sets {
   std::vector<LmdSet> sets;
   std::vector<double> seconds;
   Scene scene;
 };
 
-/// A search that Python's threads may share: they wait for each other.
+/// A search that Python's threads can share: one waits for the other.
 class Search {
  public:
   Search(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, double cutoff,
@@ -51,7 +51,7 @@ class Search {
     for (const PreparedMesh& mesh : fixed) scene_.fixed.push_back(mesh.body());
   }
 
-  /// Called without the interpreter lock.
+  /// Runs without the interpreter lock.
   std::shared_ptr<Sets> at(const Poses& poses) {
     const Path& path = poses.path;
     const std::lock_guard lock(mutex_);

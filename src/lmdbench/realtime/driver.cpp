@@ -27,12 +27,12 @@ namespace lmdbench {
 namespace {
 
 constexpr std::int64_t MS = 1'000'000;              // ns
-constexpr std::int64_t SCENE_PERIOD = 10 * MS;      // the recorder's: well below what its queue holds
-constexpr std::int64_t LEAST_LISTED = MS / 2;       // between turns of a free loop that are listed
+constexpr std::int64_t SCENE_PERIOD = 10 * MS;      // the recorder's: too short to fill the queue
+constexpr std::int64_t LEAST_LISTED = MS / 2;       // between recorded turns of a free loop
 constexpr std::int64_t START_AHEAD = 20 * MS;       // of the servo's first tick
 constexpr std::int64_t NEIGHBOUR_PERIOD = 50 * MS;  // of a planted busy neighbour
 constexpr int TRACKING_BELOW_SERVO = 10;            // in priority
-constexpr std::size_t PRIMING_POSES = 20'000;       // of the path, before the run: the recorded ones whole
+constexpr std::size_t PRIMING_POSES = 20'000;       // path poses before the run: all of a recording
 constexpr std::size_t LIST_ROWS = 1U << 16U;        // of LMD lists on their way to the recorder
 
 /// Cores of the roles.
@@ -41,7 +41,7 @@ struct CorePlan {
   std::vector<int> used;
 };
 
-/// The servo loop gets the last core: the first ones serve interrupts. Shared ones as the paper found (section 6.1).
+/// The servo loop gets the last core, since interrupts use the first. Sharing: section 6.1.
 CorePlan plan_cores(const RealtimeChoice& choice, bool tracks) {
   std::vector<int> cores = usable_cores();
   if (choice.cores && static_cast<std::size_t>(*choice.cores) < cores.size())
@@ -64,7 +64,7 @@ CorePlan plan_cores(const RealtimeChoice& choice, bool tracks) {
   return plan;
 }
 
-/// Where the mesh will be `ahead` ns after the note if it goes on as between the last two ticks.
+/// Pose `ahead` ns after the note, if the motion of the last two ticks goes on.
 Pose predicted(const PoseNote& note, std::int64_t ahead) {
   if (note.since <= 0 || ahead <= 0) return note.pose;
   return extrapolated(note.before, note.pose, static_cast<double>(ahead) / static_cast<double>(note.since));
@@ -162,14 +162,14 @@ class MethodOnClock {
  private:
   RoleRecord& role(RoleIndex index) { return recorder_->clock.roles[static_cast<std::size_t>(index)]; }
 
-  /// Before the clock starts: what is allocated once is allocated now, and the first tick finds a set.
+  /// Before the clock starts: allocates what is allocated once; the first tick finds a set.
   void prime() {
     LmdSet lmds;
     WorkCounters ignored;
     if (!tracks_) {
       const std::size_t poses = std::min(input_.poses.size(), PRIMING_POSES);
-      // One after the other as on the clock: what is kept from frame to frame grows along the way, not at poses apart.
-      // Twice, because the way back to the first pose is a jump, after which what is kept is laid out anew.
+      // In path order, since memory kept from frame to frame grows along the path. Twice, because
+      // the return to the first pose is a jump, after which that memory is laid out anew.
       const auto search_at = [&](std::size_t i) {
         first_frames_.to_frame(static_cast<std::int64_t>(i));
         first_->search(input_.poses[i], lmds, ignored);
@@ -216,7 +216,7 @@ class MethodOnClock {
     return start_;
   }
 
-  /// Stands still where that is planted.
+  /// Stops where this is planted.
   void stand_still(const char* name) {
     if (choice_.plant.stopped_role != name || stood_still_ || monotonic_ns() < quarter()) return;
     stood_still_ = true;
@@ -278,7 +278,7 @@ class MethodOnClock {
     servo_ended_ = true;
   }
 
-  /// Calls turn(tick) on a grid, or as often as it can, until the run is over.
+  /// Calls turn(tick) on a grid, or without a pause, until the run is over.
   template <typename Turn>
   void loop(RoleIndex index, double rate_hz, std::int64_t offset, const Turn& turn) {
     const std::int64_t start = wait_for_start();
@@ -311,7 +311,7 @@ class MethodOnClock {
     });
   }
 
-  /// @param listed  whether the recorder is told
+  /// @param listed  whether to record it
   void search_once(const Tick& tick, bool listed) {
     exchange_.pose_for_search.fetch();
     const PoseNote note = exchange_.pose_for_search.value();
@@ -333,7 +333,7 @@ class MethodOnClock {
     }
     turn.search.kept_after_reduction = static_cast<std::int64_t>(found.lmds.size());
     if (choice_.plant.search_sleep_s > 0.0 && listed) sleep_for_s(choice_.plant.search_sleep_s);
-    // Decision E11: the later trackings of section 4.3 have the pose of their own moment.
+    // Decision E11: the later trackings of section 4.3 use the pose of their own time.
     if (trackings > 1) {
       exchange_.pose_for_search.fetch();
       const std::int64_t second = monotonic_ns();
@@ -352,7 +352,7 @@ class MethodOnClock {
 
   void tracking_thread() {
     const double rate = choice_.tracking_rate_hz.value_or(input_.frame_rate_hz);
-    // A free loop of real-time priority would let nothing else run on its core.
+    // A free loop of real-time priority would block its core for all others.
     const int priority =
         rate > 0.0 && choice_.priority > 0 ? std::max(choice_.priority - TRACKING_BELOW_SERVO, 1) : 0;
     take_policy("tracking", {cores_.tracking, priority});
@@ -367,7 +367,7 @@ class MethodOnClock {
     });
   }
 
-  /// @return age of the pose when the update was done
+  /// @return age of the pose at the end of the update
   std::int64_t track_once(std::int64_t start) {
     if (exchange_.searched.fetch()) {
       const SearchedSet& searched = exchange_.searched.value();
@@ -379,7 +379,7 @@ class MethodOnClock {
     const PoseNote& note = exchange_.pose_for_tracking.value();
     const std::int64_t begin = monotonic_ns();
     std::int64_t ahead = 0;
-    // The next tick of the servo uses the set.
+    // The next servo tick uses the set.
     if (settings_.predict && start > 0) ahead = start + ((begin - start) / period_ + 1) * period_ - note.at;
     const Pose pose = predicted(note, ahead);
     const double following_s =
@@ -433,8 +433,8 @@ class MethodOnClock {
   const RealtimeChoice& choice_;
   const ForceProfile profile_;
   const std::int64_t period_, frames_;
-  SceneFrames first_frames_, local_frames_;  ///< Of these, each in its own thread:
-  std::unique_ptr<Method> first_;  ///< The search's instance; the servo's where there is no other loop.
+  SceneFrames first_frames_, local_frames_;  ///< Each in its own thread, as:
+  std::unique_ptr<Method> first_;            ///< The search's; without another loop the servo's.
   const bool tracks_;
   std::unique_ptr<Method> local_;  ///< The tracking's.
   const Aggregation& aggregation_;
@@ -444,17 +444,17 @@ class MethodOnClock {
   RecordQueues queues_;
   std::unique_ptr<RealtimeRecorder> recorder_;
 
-  // The search's.
+  // Used by the search alone.
   std::int64_t last_search_ns_ = 0;
-  // The tracking's.
+  // Used by the tracking alone.
   LmdSet working_;
   std::int64_t candidates_ = 0, searched_at_ = 0;
   DirectionMemory memory_;
 
-  bool stood_still_ = false;            ///< One role does, once.
+  bool stood_still_ = false;            ///< One role stops, once.
   std::atomic<std::int64_t> start_{0};  ///< 0: not yet; -1: never.
   std::atomic<bool> stop_{false}, servo_ended_{false};
-  std::mutex error_mutex_;  ///< Before and after the run; no loop takes it.
+  std::mutex error_mutex_;  ///< Before and after the run; loops never lock it.
   std::exception_ptr error_;
 };
 

@@ -8,17 +8,17 @@
 
 #include <vector>
 
-/// The real-time driver: the paper's four threads (section 5) on the machine's clock, one method after the other.
-///  - servo (the PHANTOM loop): at each instant of a grid it senses the pose, sums the latest set's forces and gives the
-///    device the result. A method without local tracking searches here: one loop in the place of three;
-///  - search: searches at the latest pose, reduces, tracks once more (section 4.3), hands over, and begins again;
-///  - tracking: brings the latest set to the latest pose, over and over;
+/// The real-time driver: the paper's four threads (section 5) on the machine's clock, by method.
+///  - servo (the PHANTOM loop): at each instant of a grid it senses the pose, sums the latest set's
+///    forces and gives the device the result. A method without local tracking searches here alone;
+///  - search: searches at the latest pose, reduces, tracks once more (section 4.3), hands over;
+///  - tracking: brings the latest set to the latest pose, again and again;
 ///  - scene: records instead of drawing.
-/// Threads hand the latest value over without locks (latest_value.h); what the servo loop records goes through a queue of fixed
-/// length. In the servo loop nothing is allocated, locked, written or faulted in. Late periods are skipped and counted
-/// (servo_clock.h). With fewer cores than roles the servo loop shares one with tracking, as the paper found that it can (section
-/// 6.1), and search one with the scene.
-/// Frames of the result are those of the path: a period without a tick shows what the device held.
+/// Threads hand over the latest value without locks (latest_value.h); the servo loop's records go
+/// through a queue of fixed length. The servo loop allocates, locks, writes and faults in nothing.
+/// Late periods are skipped and counted (servo_clock.h). With fewer cores than roles it shares one
+/// with tracking, as the paper found possible (section 6.1), and search one with the scene.
+/// Frames of the result are the path's: a period without a tick has what the device held.
 namespace lmdbench {
 
 struct RealtimeRun {
@@ -26,14 +26,14 @@ struct RealtimeRun {
   std::vector<RealtimeRecord> clocks;  ///< this.
 };
 
-/// What a run on the clock needs of the experiment.
+/// Settings of the experiment for a realtime run.
 struct RealtimeSettings {
   RealtimeChoice choice;
-  bool predict = false;  ///< Search and track where the mesh will be when the result is used.
+  bool predict = false;  ///< Search and track at the pose expected when the result is used.
 };
 
 /// @param keeper keeps every frame as it is recorded; may be nullptr
-/// @throws EnvironmentError where `choice.required` and the system refuses something
+/// @throws EnvironmentError where `choice.required` and the system refuses a request
 /// @throws Interrupted when `progress` returned false
 RealtimeRun run_realtime(const std::vector<DrivenMethod>& methods, const DriverInput& input,
                          const RealtimeSettings& settings, const Progress& progress,

@@ -15,7 +15,7 @@ namespace {
 constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
 constexpr double LOW = 0.025, HIGH = 0.975;
 
-/// The smallest value that so many of the samples lie at or below.
+/// Index of the smallest value with so large a share of the samples at or below it.
 std::size_t rank_of(double share, std::size_t count) {
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
   return std::min(std::max<std::size_t>(rank, 1), count) - 1;
@@ -37,7 +37,7 @@ Lateness::Lateness(std::span<const double> seconds) {
   sorted_.reserve(seconds.size());
   for (const std::size_t i : order) sorted_.push_back(seconds[i]);
   if (sorted_.empty()) return;
-  // Whole blocks by weight: a walk through the sorted samples finds every quantile of a resample.
+  // Blocks have weights: one pass over the sorted samples gives every quantile of a resample.
   const std::size_t blocks = (seconds.size() + LATENESS_BLOCK - 1) / LATENESS_BLOCK;
   std::mt19937_64 random(seconds.size());
   std::vector<std::int64_t> weight(blocks);

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-/// Lateness of a loop, and what of it exceeds the floor.
+/// Lateness of a loop, and its excess over the floor.
 namespace lmdbench {
 
 /// Quantiles that reports show.
 inline constexpr std::array<double, 5> LATENESS_SHARES{0.5, 0.95, 0.99, 0.999, 0.9999};
 
-/// One quantile with its 95 % interval [s], and how many samples lie above it: a p99.99 of 60,000 samples rests on six.
+/// A quantile, its 95 % interval [s] and the samples above: p99.99 of 60,000 samples rests on six.
 struct LatenessQuantile {
   double share = 0.0;
   double value = 0.0, low = 0.0, high = 0.0;
@@ -26,9 +26,9 @@ struct LatenessExcess {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
-/// Lateness of one loop [s], with resamples of its quantiles. Neighbouring samples of a machine that is taken away for
-/// milliseconds are not independent, so whole blocks of LATENESS_BLOCK samples are drawn (block bootstrap; Kunsch 1989); the
-/// draws are the same in every run.
+/// Lateness of one loop [s], with resamples of its quantiles. Where the machine is taken away for
+/// milliseconds, neighbouring samples depend on each other. So whole blocks of LATENESS_BLOCK
+/// samples are drawn (block bootstrap; Kunsch 1989), the same draws in every run.
 class Lateness {
  public:
   /// @param seconds  one a tick, in order
@@ -47,10 +47,10 @@ class Lateness {
   std::array<std::vector<double>, LATENESS_SHARES.size()> resampled_;
 };
 
-/// Samples of a block: 0.1 s at 1 kHz, well above the few milliseconds that a machine is taken away for.
+/// Samples of a block: 0.1 s at 1 kHz, longer than the few milliseconds of an interruption.
 inline constexpr std::size_t LATENESS_BLOCK = 100;
 
-/// Upper edges of the histogram's bins [s], 10 a decade from 1 us to 1 s; above the last lies one more bin.
+/// Upper edges of the histogram's bins [s], 10 a decade from 1 us to 1 s; one more bin is above.
 std::vector<double> lateness_edges();
 /// Counts by bin: at or below each edge and above the one before; the last bin is above all edges.
 std::vector<std::int64_t> lateness_histogram(std::span<const double> seconds);

@@ -8,34 +8,34 @@
 
 namespace lmdbench {
 
-/// Hands the latest value from one thread to another without locks: a triple buffer. The writer fills a slot of its own and
-/// exchanges its index for that of the slot between the two; the reader does the same where something new lies there. Neither
-/// ever waits, no slot is ever read while it is written, and what the reader does not fetch in time is overwritten. One
-/// writer, one reader.
+/// Hands the latest value from one thread to another without locks: a triple buffer. The writer
+/// fills its slot and swaps its index with that of the slot in between; the reader does so when a
+/// new value is there. Neither waits, no slot is read while written, and an unfetched value is
+/// overwritten. One writer, one reader.
 template <typename Value>
 class LatestValue {
  public:
-  /// Every slot starts as a copy of it, so that memory is there before the first tick.
+  /// Every slot starts as a copy of `initial`, so that its memory exists before the first tick.
   explicit LatestValue(const Value& initial = Value()) : slots_{initial, initial, initial} {}
   LatestValue(const LatestValue&) = delete;
   LatestValue& operator=(const LatestValue&) = delete;
 
   /// The writer's slot, to be filled in place; it holds some earlier value.
   Value& slot() { return slots_[written_]; }
-  /// Makes what the slot holds the latest value.
+  /// Makes the slot's value the latest one.
   void publish() {
     written_ =
         between_.exchange(static_cast<std::uint8_t>(written_ | FRESH), std::memory_order_acq_rel) & INDEX;
   }
 
-  /// Fetches the latest value, where there is a new one.
-  /// @return whether there was
+  /// Fetches the latest value, if it is new.
+  /// @return whether it was
   bool fetch() {
     if ((between_.load(std::memory_order_relaxed) & FRESH) == 0) return false;
     read_ = between_.exchange(read_, std::memory_order_acq_rel) & INDEX;
     return true;
   }
-  /// What was fetched last; the initial value before.
+  /// The last fetched value, at first the initial one.
   const Value& value() const { return slots_[read_]; }
   Value& value() { return slots_[read_]; }
 

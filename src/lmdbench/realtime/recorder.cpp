@@ -49,7 +49,7 @@ void RealtimeRecorder::drain() {
 
 void RealtimeRecorder::note_search(const SearchTurn& search) {
   add_turn(role_of(clock, RoleIndex::SEARCH), search.turn);
-  // The record has one search a frame at most; the clock's has them all.
+  // The record has at most one search a frame; the clock's record has all.
   const std::int64_t last = !waiting_.empty()          ? waiting_.back().search.frame
                             : !record.searches.empty() ? record.searches.back().frame
                                                        : -1;
@@ -65,7 +65,7 @@ void RealtimeRecorder::take(const TickRecord& tick) {
   clock.search_age.push_back(tick.search_age);
   clock.tick_frame.push_back(frame);
   take_list(tick);
-  // A device that calls faster than the grid gives a period two ticks: the first one is the frame.
+  // A device faster than the grid gives a period two ticks: the first one is the frame.
   if (static_cast<std::int64_t>(record.frames.size()) > frame) return;
   record.frames.push_back(tick.frame);
   note_times(tick.update_s, tick.following_s);
@@ -105,7 +105,7 @@ void RealtimeRecorder::hold_until(std::int64_t frame, FrameSource source) {
       record.poses.push_back(record.poses.empty() ? Pose() : record.poses.back());
       record.loop.push_back(record.loop.empty() ? LoopFrame() : record.loop.back());
     }
-    // What the device held is known where the tick before gave its list.
+    // What the device held is known if the previous tick gave its list.
     if (source == FrameSource::SKIPPED && has_last_list_ && kept_[at] != 0)
       record.lmds.emplace(static_cast<std::int64_t>(at), last_list_);
     clock.frame_source.push_back(source);

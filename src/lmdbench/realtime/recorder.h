@@ -26,24 +26,24 @@ struct RecordQueues {
   RecordQueue<SearchTurn> searches;
 };
 
-/// Makes the record of a run of what comes through the queues, while it comes.
+/// Builds the record of a run from the queues, during the run.
 class RealtimeRecorder {
  public:
   /// @param frames  of the path
-  /// @param kept    by frame, whether its LMD list is to be kept
+  /// @param kept    by frame, whether to keep its LMD list
   RealtimeRecorder(RecordQueues& queues, const std::string& label, std::int64_t frames, bool closed_loop,
                    const std::vector<char>& kept, RunKeeper* keeper, std::size_t method);
 
-  /// Takes what has come.
+  /// Takes all that has arrived.
   void drain();
-  /// Takes the rest and fills what never came.
+  /// Takes the rest and fills gaps.
   void finish();
 
   std::int64_t frames_done() const { return done_.load(std::memory_order_relaxed); }
 
-  bool deforms = false;  ///< Whether meshes do, so that the record has how long they took to follow.
+  bool deforms = false;  ///< Whether meshes deform: records their following times.
   MethodRecord record;
-  RealtimeRecord clock;  ///< Roles as RoleIndex says.
+  RealtimeRecord clock;  ///< Roles by RoleIndex.
 
  private:
   void take(const TickRecord& tick);
@@ -60,7 +60,7 @@ class RealtimeRecorder {
   RunKeeper* keeper_;
   std::size_t method_;
   std::int64_t next_sequence_ = 0;
-  std::deque<SearchTurn> waiting_;  ///< Searches that are not in the record yet: one a frame.
+  std::deque<SearchTurn> waiting_;  ///< Not yet in the record: one a frame.
   LmdSet last_list_;
   bool has_last_list_ = false;  ///< Of the last tick.
   std::atomic<std::int64_t> done_{0};

@@ -8,14 +8,14 @@
 namespace lmdbench {
 namespace {
 
-/// What the device's callback works with.
+/// Data of the device's callback.
 struct DeviceCalls {
   std::int64_t start, period, device_period;
   const std::function<void()>& begin;
   const ServoTick& tick;
   std::int64_t last_call = -1, last_period = -1;
   std::atomic<bool> ended{false};
-  std::exception_ptr error = nullptr;  ///< A device's library is no place for our exceptions.
+  std::exception_ptr error = nullptr;  ///< Exceptions must not enter a device's library.
 
   bool call() noexcept {
     try {
@@ -28,7 +28,7 @@ struct DeviceCalls {
     return false;
   }
 
-  /// @return whether to go on
+  /// @return whether to continue
   bool call_tick() {
     const std::int64_t now = monotonic_ns();
     if (last_call < 0) begin();

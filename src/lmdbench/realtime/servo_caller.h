@@ -12,20 +12,20 @@
 #include <thread>
 #include <vector>
 
-/// Who calls the servo loop: the bench's own grid, or the driver of a device with a thread and a rate of its own.
+/// Caller of the servo loop: this program's grid, or a device's driver (own thread and rate).
 namespace lmdbench {
 
 /// The servo loop's body: one tick; false ends the loop. Called in one thread.
 using ServoTick = std::function<bool(const Tick& tick)>;
 
-/// The bench's clock, in the calling thread.
+/// Calls on this program's clock, in the calling thread.
 void call_on_grid(std::int64_t start, std::int64_t period, const ServoTick& tick);
 
-/// What a haptic device's library offers (OpenHaptics' scheduler is the model): it calls a function from a thread that it
-/// owns, at a rate that it keeps. This one is a stand-in without a device, which shows where a real one goes.
+/// The interface of a haptic device's library (modelled on OpenHaptics' scheduler): it calls a
+/// function from its own thread, at its own rate. A stand-in for a real one, without a device.
 class DeviceScheduler {
  public:
-  /// @return whether to go on
+  /// @return whether to continue
   using Callback = bool (*)(void* user_data);
 
   ~DeviceScheduler() { stop(); }
@@ -38,9 +38,9 @@ class DeviceScheduler {
   std::atomic<bool> stopped_{false};
 };
 
-/// Puts a device's callback in the place of the bench's clock. The device's ticks have no place on the bench's grid: each
-/// is for the period that has begun, so that a slower device leaves periods without a tick and a faster one gives some two.
-/// `asked` is one period of the device after the last call.
+/// Lets a device's callback replace this program's clock. Its ticks are off the grid: each counts
+/// for the period that has begun, so a slower device leaves periods without a tick and a faster one
+/// gives some two. `asked` is one period of the device after the last call.
 /// Returns when `tick` ended the loop.
 /// @param begin  called first in the device's thread, to give it its policy
 void call_from_device(DeviceScheduler& scheduler, double rate_hz, std::int64_t start, std::int64_t period,

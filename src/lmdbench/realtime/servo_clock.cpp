@@ -29,7 +29,7 @@ void sleep_until_ns(std::int64_t instant) {
 
 void TickTimes::reserve(std::size_t count) {
   for (std::vector<std::int64_t>* column : {&asked, &woken, &done}) {
-    // Written once, so that no page of them is new in the loop.
+    // Touches every page before the loop.
     column->assign(count, 0);
     column->clear();
   }
@@ -50,7 +50,7 @@ TickTimes run_empty_loop(std::int64_t period, std::int64_t ticks) {
     const Tick tick = grid.wait();
     const ServoWatch watch;
     if (tick.period >= ticks) {
-      // A stall that lasted past the end: the instants up to there have no tick.
+      // A stall lasted beyond the end: the remaining instants have no tick.
       times.skipped += ticks - next;
       break;
     }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-/// The clock of loops that must keep a grid of instants (POSIX clock_nanosleep with absolute deadlines on CLOCK_MONOTONIC).
-/// All times are nanoseconds of that clock.
+/// The clock of loops on a grid of instants (POSIX clock_nanosleep with absolute deadlines on
+/// CLOCK_MONOTONIC). All times are nanoseconds of that clock.
 namespace lmdbench {
 
 std::int64_t monotonic_ns();
@@ -16,15 +16,15 @@ void sleep_until_ns(std::int64_t instant);
 
 /// One turn of a loop.
 struct Tick {
-  std::int64_t asked = 0;  ///< Instant that the loop slept until.
-  std::int64_t woken = 0;  ///< When it went on.
-  std::int64_t period =
-      0;  ///< Which instant of the grid the tick is for, counted from 0: the last one that is not in the future.
-  std::int64_t skipped = 0;  ///< Instants of the grid since the last tick that got none.
+  std::int64_t asked = 0;    ///< Instant that the loop waited for.
+  std::int64_t woken = 0;    ///< When it continued.
+  std::int64_t period = 0;   ///< Its instant, from 0: the last not in the future.
+  std::int64_t skipped = 0;  ///< Instants without a tick since the last one.
 };
 
-/// The grid start + n * period. A loop that is late goes on with the last instant that has come; those before it are skipped
-/// and counted, never made up for in a burst: a device that was not served for ten periods is not helped by ten forces at once.
+/// The grid start + n * period. A late loop continues with the last instant that has come. Earlier
+/// ones are skipped and counted, never made up for in a burst: ten forces at once do not help a
+/// device after ten missed periods.
 class TickGrid {
  public:
   TickGrid(std::int64_t start, std::int64_t period) : period_(period), start_(start) {}
@@ -59,12 +59,12 @@ struct TickTimes {
   std::size_t size() const { return asked.size(); }
 };
 
-/// The control loop: the same grid with nothing in it. What it is late by is the machine's own.
-/// Runs in the calling thread, whose policy it has. Ticks and skipped instants are `ticks` together.
+/// The control loop: the same grid without work. Its lateness is the machine's own.
+/// Runs in the calling thread, under its policy. `ticks` counts ticks and skipped instants.
 TickTimes run_empty_loop(std::int64_t period, std::int64_t ticks);
 
-/// Whether the calling thread is inside a servo tick, where nothing may be allocated, locked, faulted in or written. The loop
-/// sets it; tests that replace the allocator and the mutexes count what happens while it is set.
+/// Whether the calling thread is inside a servo tick, which may not allocate, lock, fault in or
+/// write. The loop sets it; tests that replace allocator and mutexes count what happens meanwhile.
 inline thread_local bool in_servo_tick = false;
 
 /// Sets it for a scope.

@@ -22,7 +22,7 @@ SimulatedServoDevice::SimulatedServoDevice(const LoopChoice& loop, const std::ve
       delay_ns_(loop.delay_frames * period),
       mesh_(loop, 1e-9 * static_cast<double>(period / steps), path.front(), reference_M, loop.push_n,
             Vec3::Zero()),
-      // Forces come once a period at most, but for a device that calls faster.
+      // Forces come at most once a period, unless a device calls faster.
       due_(4 * (static_cast<std::size_t>(loop.delay_frames) + 2)),
       pose_(mesh_.sensed_pose()) {}
 
@@ -38,7 +38,7 @@ Pose SimulatedServoDevice::path_at(std::int64_t step) const {
 }
 
 void SimulatedServoDevice::advance_to(std::int64_t now) {
-  // To the nearest step: a force that comes within half a step of a tick is that tick's.
+  // To the nearest step: a force within half a step of a tick belongs to it.
   const std::int64_t wanted = (now - start_ + step_ns_ / 2) / step_ns_;
   for (; step_ < wanted; ++step_) {
     while (due_count_ > 0 && due_[first_due_].at <= start_ + step_ * step_ns_ + step_ns_ / 2) {
@@ -61,7 +61,7 @@ const Pose& SimulatedServoDevice::sense(std::int64_t, std::int64_t now) {
 
 void SimulatedServoDevice::render(const RenderedForce& rendered, std::int64_t now) {
   if (due_count_ == due_.size()) {
-    // Nobody holds so many: the oldest has been due for long.
+    // The ring is full: the oldest force is long due.
     held_ = due_[first_due_].rendered;
     first_due_ = (first_due_ + 1) % due_.size();
     --due_count_;

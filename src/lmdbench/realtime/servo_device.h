@@ -14,24 +14,24 @@
 
 namespace lmdbench {
 
-/// A device as the servo loop sees it. Both calls come from the servo's thread, once a tick, and must neither allocate nor lock.
+/// A device for the servo loop: its thread calls both once a tick; they must not allocate or lock.
 class ServoDevice {
  public:
   virtual ~ServoDevice() = default;
 
-  /// X_WM as the encoders tell it now.
+  /// X_WM by the encoders, now.
   /// @param period  servo period, counted from the start of the run
   /// @param now     [ns]
   virtual const Pose& sense(std::int64_t period, std::int64_t now) = 0;
 
-  /// What the motors give from now on.
+  /// The motors' output from now on.
   virtual void render(const RenderedForce& rendered, std::int64_t now) = 0;
 
-  /// What the device did up to the last `sense`; nullptr where nobody knows.
+  /// The device's motion up to the last `sense`; nullptr if unknown.
   virtual const LoopFrame* moved() const { return nullptr; }
 };
 
-/// A recorded device: poses of a path, one a servo period. It feels nothing.
+/// A recorded device: poses of a path, one a servo period. Forces do not move it.
 class RecordedDevice final : public ServoDevice {
  public:
   /// @param path must outlive this
@@ -44,12 +44,12 @@ class RecordedDevice final : public ServoDevice {
   const std::vector<Pose>& path_;
 };
 
-/// The simulated PHANTOM on the clock: what moves it is the force that is really held at each instant, in steps of a fraction
-/// of a servo period. A tick that comes late senses it where it has got to, a force that comes late acts late, and while no tick
-/// comes it goes on under the last force.
+/// The simulated PHANTOM in real time: the force that is held at each instant moves it, in steps of
+/// a fraction of a servo period. A late tick senses where it is by then, a late force acts late,
+/// and without a tick the last force goes on.
 class SimulatedServoDevice final : public ServoDevice {
  public:
-  /// @param path   the meant path, one pose a servo period
+  /// @param path   the intended path, one pose a servo period
   /// @param start  instant of the path's first pose [ns]
   /// @param period servo period [ns]
   /// @param steps  of the simulation in a servo period
@@ -72,7 +72,7 @@ class SimulatedServoDevice final : public ServoDevice {
   std::int64_t start_, step_ns_, steps_, delay_ns_;
   HeldMesh mesh_;
   std::int64_t step_ = 0;  ///< Steps done.
-  std::vector<Due> due_;   ///< Forces that are not held yet: a ring.
+  std::vector<Due> due_;   ///< Ring of forces not yet held.
   std::size_t first_due_ = 0, due_count_ = 0;
   RenderedForce held_;
   LoopFrame frame_;

@@ -104,7 +104,7 @@ void ServoRole::tick(const Tick& tick) {
   frame.minimum_distance = minimum_distance(lmds);
   frame.lmd_age = 1e-9 * static_cast<double>(record_.search_age);
   if (const LoopFrame* moved = device_.moved()) record_.loop = *moved;
-  // A list goes with a record only: what the recorder cannot take stays out whole.
+  // A list is recorded with its tick only: without room for the tick it is dropped.
   if (queues_.ticks.write_available() == 0) {
     ++lost_;
     return;

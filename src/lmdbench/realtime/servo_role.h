@@ -15,7 +15,7 @@
 
 namespace lmdbench {
 
-/// How the servo loop and the two loops behind it hand over.
+/// Exchange between the servo loop and the two loops behind it.
 struct ServoExchange {
   LatestValue<PoseNote> pose_for_search, pose_for_tracking;
   LatestValue<SearchedSet> searched;
@@ -25,26 +25,26 @@ struct ServoExchange {
 /// The servo loop's body (driver.h).
 class ServoRole {
  public:
-  /// @param start        of the grid [ns]; until then the mesh stood at its first pose
-  /// @param every_frame  the method, where it searches in every frame; else nullptr: sets come through `exchange`
-  /// @param kept         by frame, whether its LMD list is to be kept
-  /// @param frames       the scene of that method; else one that nobody else has
+  /// @param start        of the grid [ns]; before it the mesh is at its first pose
+  /// @param every_frame  a method that searches in every frame, or nullptr: sets by `exchange`
+  /// @param kept         by frame, whether to keep its LMD list
+  /// @param frames       the scene of that method; otherwise one used here alone
   ServoRole(const ForceProfile& profile, const Aggregation& aggregation, const DriverInput& input,
             std::int64_t start, ServoExchange& exchange, RecordQueues& queues, ServoDevice& device,
             SceneFrames& frames, Method* every_frame, const std::vector<char>& kept);
 
-  /// Nothing in it allocates, locks, writes or faults in once sets are no longer than LONGEST_SET: under the aggregation `sum`, of one rigid
-  /// mesh that moves. What saddles join, sets of several movers and shapes that change are memory of each tick.
+  /// For sets up to LONGEST_SET, aggregation `sum` and one rigid moving mesh, it allocates, locks,
+  /// writes and faults in nothing. Saddles, several movers and changing shapes take memory.
   void tick(const Tick& tick);
 
-  /// Before the first tick and after the last one, in their thread.
+  /// Called before the first tick and after the last one, in their thread.
   void begin() { first_use_ = ThreadUse::now(); }
   void end() { last_use_ = ThreadUse::now(); }
   ThreadUse use() const { return last_use_ - first_use_; }
   std::int64_t ticks() const { return sequence_; }
   std::int64_t lost() const { return lost_; }
 
-  /// LMDs of a set for which memory is there from the start.
+  /// LMDs of a set whose memory is reserved from the start.
   static constexpr std::size_t LONGEST_SET = 4096;
 
  private:

@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-/// What a thread asks of the system so that it wakes in time. Asked for, granted or refused with the reason; a refusal is a fact of
-/// the run, not its end.
+/// A thread's requests to the system, so that it wakes in time. Each is granted, or refused with a
+/// reason; a refusal is noted and does not end the run.
 namespace lmdbench {
 
-/// A thread's wishes.
+/// A thread's requests.
 struct ThreadPolicy {
-  std::optional<int> core;  ///< The only one that it may run on; unset: any.
+  std::optional<int> core;  ///< The only one to run on; unset: any.
   int priority = 0;         ///< Of SCHED_FIFO, 1 to 99; 0: the normal policy.
 };
 
-/// One wish and what became of it.
+/// A request and its result.
 struct Grant {
   std::string thread;  ///< Role of the thread, or "process".
   std::string asked;   ///< "core 1", "SCHED_FIFO 80", "locked memory"
@@ -31,10 +31,10 @@ std::vector<Grant> apply(const ThreadPolicy& policy, const std::string& thread);
 /// Cores that the calling thread may use, ascending; at least one.
 std::vector<int> usable_cores();
 
-/// Memory of the process that cannot be paged out, and pages that are there when they are asked for, for as long as it lives.
+/// Keeps the process's memory from being paged out, with pages present at once, while it lives.
 class LockedMemory {
  public:
-  /// @param asked  whether to ask at all
+  /// @param asked whether to ask the system
   explicit LockedMemory(bool asked);
   ~LockedMemory();
   LockedMemory(const LockedMemory&) = delete;
@@ -47,7 +47,7 @@ class LockedMemory {
   std::vector<Grant> grants_;
 };
 
-/// Touches so much of the calling thread's stack that no tick is the first to.
+/// Touches enough of the calling thread's stack that no tick faults it in.
 void touch_stack();
 
 }  // namespace lmdbench

@@ -26,24 +26,24 @@ namespace fs = std::filesystem;
 /// How the inputs of a result name the file of a mesh: "mesh:bunny-16k".
 constexpr std::string_view MESH_ROLE = "mesh:";
 
-/// Where files that a result names are looked for, in this order.
+/// Where to look for files that a result names, in this order.
 struct Places {
   fs::path beside;              ///< Folder of the result file.
-  std::vector<fs::path> bases;  ///< What names may be relative to: working folder, `beside`, run's folder.
+  std::vector<fs::path> bases;  ///< Bases of names: working folder, `beside`, run's.
 };
 
 Places places_of(const ResultReader& result) {
   const fs::path beside = fs::weakly_canonical(result.file()).parent_path();
-  std::error_code none;  // A name that no folder can have finds nothing.
+  std::error_code none;  // An impossible name finds nothing.
   Places places{beside, {fs::current_path(none)}};
-  // Results of before have no run folder.
+  // Older results have no run folder.
   const std::string run_folder = result.text_attribute("/provenance", "run_folder").value_or("");
   for (const fs::path& base : {beside, fs::weakly_canonical(beside / run_folder, none)})
     if (std::ranges::find(places.bases, base) == places.bases.end()) places.bases.push_back(base);
   return places;
 }
 
-/// @param name   of the file as the run named it
+/// @param name   of the file as in the run
 /// @param sha256 of its bytes then
 fs::path find_recorded_file(const fs::path& name, const std::string& sha256, const Places& places) {
   std::vector<fs::path> candidates;
@@ -66,7 +66,7 @@ fs::path find_recorded_file(const fs::path& name, const std::string& sha256, con
                    "put it beside the result file, or run the experiment again");
 }
 
-/// Files of the meshes that the run read, found again with the same bytes; by names of the meshes.
+/// Files of the meshes that the run read, with the same bytes; by names of the meshes.
 std::map<std::string, std::string> recorded_meshes(const ResultReader& result, const Places& places) {
   const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
   const std::vector<std::string> files = result.texts("/provenance/inputs/file");
@@ -79,7 +79,7 @@ std::map<std::string, std::string> recorded_meshes(const ResultReader& result, c
   return meshes;
 }
 
-/// Lets the experiment read its meshes where they are.
+/// Replaces the experiment's meshes by the files found.
 void use_files(Experiment& experiment, const std::map<std::string, std::string>& meshes) {
   for (ObjectChoice& object : experiment.objects)
     if (const auto found = meshes.find(object.mesh); found != meshes.end()) object.mesh = found->second;
@@ -114,9 +114,9 @@ const MethodDescription& exact_description() {
                          "build all methods");
 }
 
-/// @param base what the name of the experiment's file is relative to
+/// @param base folder of the experiment's file if its name is relative
 Experiment experiment_of_result(const ResultReader& result, const fs::path& base) {
-  // Its scene alone is wanted, and its methods from outside need not be here: a file must not decide what is loaded.
+  // For the scene alone; plugins need not be here, since no file may decide what is loaded.
   nlohmann::json text = nlohmann::json::parse(result.texts("/provenance/experiment").at(0), nullptr, false);
   const std::vector<std::string> known = method_names();
   if (text.is_object() && text.contains("methods") && text["methods"].is_array())
@@ -127,7 +127,7 @@ Experiment experiment_of_result(const ResultReader& result, const fs::path& base
                           base / result.text_attribute("/provenance", "experiment_file").value_or(""));
 }
 
-/// Vertex files must be those that were run.
+/// Vertex files must be those of the run.
 void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& result) {
   const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
   const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
@@ -142,7 +142,7 @@ void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& 
   }
 }
 
-/// Movers with the poses that the result has of them.
+/// Movers with their recorded poses.
 std::shared_ptr<const MoverPlay> recorded_play(const std::vector<Mover>& movers, const ResultReader& result) {
   if (movers.empty()) return nullptr;
   const std::vector<double> p = result.reals("/path/movers/position");
@@ -174,7 +174,7 @@ ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader
 ResultScene scene_of_result(const ResultReader& result) {
   const Places places = places_of(result);
   const std::map<std::string, std::string> meshes = recorded_meshes(result, places);
-  // What else the experiment names (manifest, vertex files, instances) is relative to its own file.
+  // The experiment's other names (manifest, vertex files, instances) are relative to its own file.
   for (auto base = places.bases.begin();; ++base) {
     try {
       Experiment experiment = experiment_of_result(result, *base);

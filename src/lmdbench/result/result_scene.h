@@ -13,39 +13,38 @@
 #include <string>
 #include <vector>
 
-/// The scene of a result found again, for pictures of it: meshes, poses, exact LMD sets.
+/// The scene of a result, restored for pictures of it: meshes, poses, exact LMD sets.
 namespace lmdbench {
 
-/// The meshes of a result as they stood in the scene, under the largest cutoff of its methods.
+/// The meshes of a result as placed in the scene, under the largest cutoff of its methods.
 struct ResultScene {
   Scene rest;
-  SceneMotion motion;  ///< Movers with the poses that the result has.
+  SceneMotion motion;  ///< Movers with their poses of the result.
 };
-/// The run's files are looked for from the working folder, beside the result file and from the folder of the run, and taken only with the
-/// bytes that were run.
-/// @throws InputError where a mesh is not to be had any more or is no longer what was run; UsageError where the result's
-/// experiment is none
+/// Searches files in the working folder, the result's and the run's; the bytes must be the run's.
+/// @throws InputError where a mesh is missing or differs from that of the run; UsageError where the
+/// result's experiment is invalid
 ResultScene scene_of_result(const ResultReader& result);
 
-/// Poses that methods of a result went through.
+/// Poses of methods of a result.
 struct ResultTrack {
-  std::string method;  ///< Label of the one method whose device this is; empty: all methods share it.
+  std::string method;               ///< Label of the method with this device; empty: all.
   std::vector<std::size_t> frames;  ///< Numbers of the frames.
   Path poses;                       ///< One a frame.
 };
 
 /// The path, or in a closed loop the poses of each method's device.
-/// @param most_frames evenly spread frames, of all tracks together
+/// @param most_frames evenly spread frames, over all tracks together
 std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames);
 
-/// At most so many instances of a world are drawn.
+/// So many instances are drawn at most.
 inline constexpr std::size_t MOST_DRAWN = 24;
 
-/// Indices of the fixed meshes that are worth drawing, ascending: all of them, or of a world with more than `MOST_DRAWN` those whose boxes
-/// come nearest to the tracks.
+/// Indices of the fixed meshes to draw, ascending: all, or beyond `MOST_DRAWN` instances those
+/// whose boxes come nearest to the tracks.
 std::vector<std::size_t> drawn_bodies(const Scene& scene, const std::vector<ResultTrack>& tracks);
 
-/// The method whose sets are the truth at a price that every frame can pay.
+/// A method that gives the true sets fast enough for every frame.
 std::unique_ptr<Method> exact_method(const Scene& scene);
 
 }  // namespace lmdbench

@@ -15,7 +15,7 @@
 namespace lmdbench {
 namespace {
 
-/// Identifies all that decides a run's results, and whose times they are.
+/// Hash of all that decides a run's results, and of the processor that its times belong to.
 std::string fingerprint_of(const Experiment& experiment, const PreparedRun& prepared) {
   std::string text = version_text() + "\n" + experiment.resolved_json;
   for (const auto& [name, value] : machine_info())
@@ -43,25 +43,25 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
     throw UsageError(experiment.file.string(), "/driver/kind", "a run on the clock cannot be taken up again",
                      "run it without --resume");
   RunKeeper::prepare(part);
-  // A run that ends before it measured anything leaves nothing.
+  // A run that ends before it measured anything leaves no file.
   struct RemoveEmptyPart {
     PartFile& part;
     ~RemoveEmptyPart() {
       try {
         if (!part.is_removed() && RunKeeper::measured_frames(part) == 0) part.remove();
       } catch (const Error&) {
-        // What cannot be read is left for the user to look at.
+        // An unreadable part is left for the user.
       }
     }
   } remove_empty_part{part};
-  // Seen from the result file: stays right where both folders move together. Nothing where the working folder is gone.
+  // Relative to the result, so both folders can move together. Empty without a working folder.
   std::error_code none;
   const std::filesystem::path run_folder = std::filesystem::relative(
       std::filesystem::current_path(none), std::filesystem::absolute(file, none).parent_path(), none);
   const auto write_head = [&](ResultWriter& to, const RunResult& result) {
     write_provenance(to, argv, experiment.resolved_json, plan_json(result.plan, experiment),
                      result.prepared.files);
-    // Relative names of the experiment are relative to its folder; its own and those of the inputs to that of the run.
+    // Names in the experiment are relative to its folder, its own and the inputs' to the run's.
     to.attribute("/provenance", "experiment_file", experiment.file.string());
     to.attribute("/provenance", "run_folder", run_folder.generic_string());
   };

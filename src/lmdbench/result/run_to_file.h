@@ -11,12 +11,12 @@
 
 namespace lmdbench {
 
-/// Runs an experiment and leaves a result file, which takes its name only when it is complete: an earlier file of that
-/// name stays whole until then. A file that cannot be written is noticed before the run, not after it. While it
-/// runs, `<file>.part` holds every frame that was measured (RunKeeper): whatever ends the run, they stay there,
-/// and `Leftover::RESUME` goes on with them.
+/// Runs an experiment and leaves a result file, which gets its name only when complete: until then
+/// an earlier file stays whole. A file that cannot be written shows before the run. During the run
+/// `<file>.part` holds every measured frame (RunKeeper), whatever ends the run, and
+/// `Leftover::RESUME` continues from there.
 /// @throws Interrupted when `progress` returned false
-/// @throws EnvironmentError when the part holds what an interrupted run measured and shall not be resumed
+/// @throws EnvironmentError when the part holds frames of an interrupted run that is not resumed
 RunResult run_experiment_to_file(const Experiment& experiment, const std::filesystem::path& file,
                                  const std::vector<std::string>& argv, const RunProgress& progress = {},
                                  Leftover leftover = Leftover::REFUSE);

@@ -30,7 +30,7 @@ std::vector<double> seconds_of(const std::vector<std::int64_t>& durations) {
   return seconds_since(durations, 0);
 }
 
-/// `later` minus asked, tick by tick [s].
+/// `later` minus the time asked for, per frame [s].
 std::vector<double> after_asked(const TickTimes& times, const std::vector<std::int64_t>& later) {
   std::vector<double> seconds;
   seconds.reserve(later.size());

@@ -77,7 +77,7 @@ void write_mover_frames(ResultWriter& writer, const std::string& group, const Me
 
 namespace {
 
-/// The columns of a table of records that the experiment keeps.
+/// The columns of a record table, as far as the experiment keeps them.
 template <typename Row>
 void write_columns(ResultWriter& writer, const std::string& group, const std::vector<Column<Row>>& columns,
                    const std::vector<Row>& rows, const Experiment& experiment) {
@@ -121,7 +121,7 @@ void write_frames(ResultWriter& writer, const std::string& group, const MethodCh
                 record.repetitions, &RepetitionTimes::way);
 }
 
-/// What only a method with a search of its own rate has.
+/// For methods that search at a rate of their own.
 void write_searches(ResultWriter& writer, const std::string& group, const MethodDescription& method,
                     const MethodRecord& record, const Experiment& experiment) {
   write_columns(writer, group, search_columns(method), record.searches, experiment);
@@ -193,7 +193,7 @@ void write_in_contact(ResultWriter& writer, const std::string& group, const std:
                std::span<const std::uint8_t>(flags), {flags.size()});
 }
 
-/// What the probes found along a track.
+/// Findings of the probes along a track.
 /// @param group of the file: `RunResult::group_of`
 void write_findings(ResultWriter& writer, const std::string& group, const Experiment& experiment,
                     const Track& track) {
@@ -210,7 +210,7 @@ void write_findings(ResultWriter& writer, const std::string& group, const Experi
   }
 }
 
-/// What they found of one of its methods.
+/// Findings of the probes about one of the track's methods.
 void write_findings_of_method(ResultWriter& writer, const std::string& group, const RunResult& result,
                               std::size_t method) {
   const Track& track = result.track_of(method);
@@ -275,7 +275,7 @@ void write_result(ResultWriter& writer, const Experiment& experiment, const RunR
   write_path(writer, result);
   write_scene(writer, result);
   write_in_contact(writer, "/scene", result.in_contact);
-  // With a single repetition nothing would be left after the warm-up, so it then counts, with a warning.
+  // A single repetition counts though it is the warm-up, with a warning.
   writer.attribute("/methods", "warm_up_repetitions",
                    std::int64_t{experiment.driver.repetitions > 1 ? 1 : 0});
   writer.attribute("/methods", "driver", std::string(experiment.realtime ? "realtime" : "lockstep"));

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-/// What results have of several movers, one a column in the order of the file: the moving mesh, then the entries of `/movers`.
+/// Results of several movers have a column each: the moving mesh, then the entries of `/movers`.
 namespace lmdbench {
 
 /// /path/movers: every pose of every mover.
 void write_mover_poses(ResultWriter& writer, const MoverPlay& play);
 
-/// movers/ of a method: what each felt in each frame.
+/// movers/ of a method: force and torque on each in each frame.
 void write_mover_frames(ResultWriter& writer, const std::string& group, const MethodRecord& record,
                         std::size_t movers, bool torque);
 
@@ -26,10 +26,10 @@ void write_mover_frames(ResultWriter& writer, const std::string& group, const Me
 /// provenance is not part of it. Does not commit.
 void write_result(ResultWriter& writer, const Experiment& experiment, const RunResult& result);
 
-/// The group /path: time and pose of every frame; in a closed loop of the path that the hand means to take.
+/// The group /path: time and pose of every frame; in a closed loop of the hand's intended path.
 void write_path(ResultWriter& writer, const RunResult& result);
 
-/// Attributes of a group: the profile's constants in use, and what its sum is clipped to on the device.
+/// Attributes of a group: the profile's constants, and the limit of its sum on the device.
 void write_profile(ResultWriter& writer, const std::string& group, const PreparedProfile& profile,
                    const VirtualPhantom& device);
 
@@ -42,8 +42,8 @@ void write_realtime(ResultWriter& writer, const std::vector<RealtimeRecord>& clo
 /// For people: rates, loads and lateness over the floor.
 std::string realtime_text(const std::vector<RealtimeRecord>& clocks);
 
-/// The same for programs: [{"label", "frames_skipped", "frames_lost", "floor_skipped", "stolen_s", "grants": [...], "lateness": {SERIES:
-/// [{"share", "value_s", "low_s", "high_s"}]}, "roles": [{"name", "core", "rate_hz", "load", ...}]}].
+/// JSON: [{"label", "frames_skipped", "frames_lost", "floor_skipped", "stolen_s", "grants": [...],
+/// "lateness": {SERIES: [{"share", "value_s", "low_s", "high_s"}]}, "roles": [{"name", ...}]}].
 nlohmann::ordered_json realtime_json(const std::vector<RealtimeRecord>& clocks);
 
 }  // namespace lmdbench

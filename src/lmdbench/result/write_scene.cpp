@@ -23,7 +23,7 @@ void write_profile(ResultWriter& writer, const std::string& group, const Prepare
 
 namespace {
 
-/// Which `fixed_body` an instance is, and where it stands.
+/// The `fixed_body` and pose of each instance.
 void write_instances(ResultWriter& writer, const std::string& group, const MeshNote& mesh) {
   writer.attribute(group, "first_fixed_body", mesh.first_fixed_body);
   writer.attribute(group, "coincident_instances",

@@ -22,16 +22,16 @@
 namespace lmdbench {
 namespace {
 
-/// Of what the child tells.
+/// Of the child's messages.
 constexpr std::size_t LONGEST_TEXT = 10'000;
 
-/// What is wrong first, and where; of a whole file nothing.
+/// The first damage of a file and its place; empty if there is none.
 struct Damage {
   std::string place;
   std::string problem;
 };
 
-/// Reads the values of a dataset or attribute, as they are stored and as the numbers that readers ask for.
+/// Reads the values of a dataset or attribute, as stored and as the numbers that readers want.
 /// @param read (memory type, values) -> herr_t
 template <typename Read>
 bool can_be_read(const Hdf5Handle& type, std::size_t count, const Read& read) {
@@ -45,7 +45,7 @@ bool can_be_read(const Hdf5Handle& type, std::size_t count, const Read& read) {
     std::vector<char> text(count * H5Tget_size(type.get()));
     return read(type.get(), static_cast<void*>(text.data())) >= 0;
   }
-  if (kind != H5T_INTEGER && kind != H5T_FLOAT) return true;  // readers refuse other kinds by themselves
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) return true;  // readers refuse other kinds
   std::vector<double> numbers(count);
   if (kind == H5T_INTEGER && read(H5T_NATIVE_INT64, numbers.data()) < 0) return false;
   return read(H5T_NATIVE_DOUBLE, numbers.data()) >= 0;
@@ -71,7 +71,7 @@ herr_t read_attribute(hid_t object, const char* name, const H5A_info_t* /*info*/
 
 /// What is wrong with the values of a dataset; empty where they can be read.
 std::string damage_of_values(const Hdf5Handle& dataset) {
-  if (!refers_elsewhere(dataset).empty()) return {};  // not ours to read; who asks for it is told
+  if (!refers_elsewhere(dataset).empty()) return {};  // not our values: readers refuse them
   const Hdf5Handle type(H5Dget_type(dataset.get()), &H5Tclose);
   const Hdf5Handle space(H5Dget_space(dataset.get()), &H5Sclose);
   if (!type.valid() || !space.valid()) return last_hdf5_error();
@@ -101,7 +101,7 @@ herr_t read_object(hid_t file, const char* name, const H5O_info_t* info, void* f
   return 1;
 }
 
-/// Every object once, however many links lead to it. A file that cannot be opened is left to who opens it.
+/// Every object once, however many links lead to it. A file that cannot be opened passes here.
 Damage read_whole_file(const std::filesystem::path& name) {
   silence_hdf5();
   // Without a lock: a part is locked by the process that resumes it.
@@ -160,7 +160,7 @@ void check_hdf5(const std::filesystem::path& file) {
 
 namespace {
 
-/// Where the digits stand; npos unless they stand there once.
+/// Position of the digits; npos unless they occur exactly once.
 std::size_t only_place_of(std::string_view digits, std::string_view bytes) {
   const std::size_t place = bytes.find(digits);
   if (place == std::string_view::npos || bytes.find(digits, place + 1) != std::string_view::npos)

@@ -48,7 +48,7 @@ class Hdf5Handle {
 /// so call it before every use.
 void silence_hdf5();
 
-/// The innermost message of the last failed HDF5 call of this thread, such as "No space left on device".
+/// The innermost message of this thread's last failed HDF5 call, as "No space left on device".
 std::string last_hdf5_error();
 
 }  // namespace lmdbench

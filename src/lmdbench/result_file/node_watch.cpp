@@ -30,12 +30,12 @@ double seconds_of_ticks(double ticks) {
   return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
-/// /proc/PID/stat: "PID (command) state ..."; the command may hold anything, so the fields are counted from its last
-/// parenthesis (proc(5)).
+/// /proc/PID/stat: "PID (command) state ..."; the command may contain anything, so fields are
+/// counted from its last parenthesis (proc(5)).
 std::optional<ProcessTime> process_time(const std::filesystem::path& stat) {
   std::ifstream stream(stat);
   std::string line;
-  if (!std::getline(stream, line)) return std::nullopt;  // it has ended meanwhile
+  if (!std::getline(stream, line)) return std::nullopt;  // ended meanwhile
   const std::size_t open = line.find('('), close = line.rfind(')');
   if (open == std::string::npos || close == std::string::npos || close < open) return std::nullopt;
   ProcessTime process;
@@ -65,7 +65,7 @@ std::map<int, ProcessTime> all_processes() {
   return result;
 }
 
-/// Of all processes, those included that have ended [s]; NaN where the system does not say.
+/// Of all processes, ended ones included [s]; NaN where the system gives none.
 double machine_seconds() {
   std::ifstream stream("/proc/stat");
   std::string name;
@@ -84,7 +84,7 @@ double own_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// To hundredths: more than the ticks of the system can tell would be noise.
+/// Rounded to hundredths: the system's ticks tell no more.
 double to_hundredths(double value) {
   return std::round(value * 100.0) / 100.0;
 }

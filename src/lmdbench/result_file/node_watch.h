@@ -10,33 +10,33 @@
 #include <string>
 #include <vector>
 
-/// Where a time was measured and what worked beside it. Points of a sweep that are spread over a cluster are not measured in
-/// turns on one quiet machine: whoever compares their times has to see on which node each was, and how busy it was.
+/// Where a time was measured and what else ran there. A cluster does not measure a sweep's points
+/// in turns on one quiet machine: readers of their times need each point's node and its load.
 namespace lmdbench {
 
-/// A process of the machine, as /proc tells.
+/// A process of the machine, according to /proc.
 struct ProcessTime {
   std::string command;
-  std::uint64_t started = 0;  ///< Clock ticks since boot: tells two processes of one number apart.
-  double seconds = 0.0;       ///< Processor time so far, children that have ended left out.
+  std::uint64_t started = 0;  ///< Clock ticks since boot: tells apart two processes of one id.
+  double seconds = 0.0;       ///< Processor time so far, without ended children.
 };
 
-/// Who kept how many processors busy.
+/// A command and how many processors it kept busy.
 struct Neighbour {
   std::string command;
   double processors = 0.0;
 };
 
-/// What ran between two looks at the machine, the busiest first, a command once, at most five. Less than a fiftieth of a
-/// processor is left out.
+/// What ran between two looks at the machine: the busiest first, each command once, at most five,
+/// without those below a fiftieth of a processor.
 /// @param seconds between the looks
-/// @param own     number of the process that asks
+/// @param own     id of the calling process
 std::vector<Neighbour> neighbours_between(const std::map<int, ProcessTime>& before,
                                           const std::map<int, ProcessTime>& after, double seconds, int own);
 
-/// What is known of the machine beforehand: "processors", and "allowed" to this process; by name "node", and under Slurm "job",
-/// "restarts" of it, and "exclusive", whether the job has all processors of the node.
-/// @param by_name whether the node and what works there are named; what is measured on one's own machine names nobody
+/// Facts about the machine: "processors", and those "allowed" to this process; by name "node", and
+/// under Slurm "job", its "restarts", and "exclusive" (the job has all processors of the node).
+/// @param by_name whether to name the node and its processes: not on somebody's own machine
 nlohmann::json describe_node(bool by_name);
 
 /// Looks at the machine when a traversal begins and when it has ended.
@@ -44,8 +44,8 @@ class NodeWatch {
  public:
   explicit NodeWatch(bool by_name);
 
-  /// `describe_node`, and what worked beside since the construction: "elsewhere", processors that others kept busy, also those
-  /// that have come and gone (left out where the system does not say); by name "neighbours" with "command" and "processors".
+  /// `describe_node`, and the load since construction: "elsewhere", processors kept busy by others,
+  /// ended ones too (absent if unknown); by name "neighbours" with "command", "processors".
   nlohmann::json finish() const;
 
  private:

@@ -37,9 +37,9 @@ bool has_our_format(const std::filesystem::path& file) {
 }  // namespace
 
 bool is_own_result(const std::filesystem::path& file) {
-  // Where our files have it; HDF5 would search the whole of any other file for it.
+  // Our files begin so; HDF5 would search the whole of any other file for it.
   if (!file_begins_with(file, "\x89HDF\r\n\x1a\n")) return false;
-  // HDF5 may crash on what only looks like it (hdf5_check.h).
+  // HDF5 may crash on files that only look like it (hdf5_check.h).
   const ChildLimits limits{limit_of(Limit::IMPORT_SECONDS), limit_of(Limit::IMPORT_BYTES)};
   ChildProcess child(
       [&](const ChildProcess::Send& send) {

@@ -6,8 +6,8 @@
 
 namespace lmdbench {
 
-/// Whether a file is a result of this program, of any format version: HDF5 whose root attribute `format` says
-/// so. False for what cannot be opened.
+/// Whether a file is a result of this program, of any format version: HDF5 with the root attribute
+/// `format` of results. False for a file that cannot be opened.
 bool is_own_result(const std::filesystem::path& file);
 
 }  // namespace lmdbench

@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t VALUE_BYTES = 8;
 
-/// The file behind the part's mapping. HDF5's own lock is left out: the part holds another one, and on network
-/// file systems the two are one kind.
+/// The file under the part's mapping. Without HDF5's own lock: the part holds another one, and on
+/// network file systems the two are of one kind.
 Hdf5Handle open_part(const std::filesystem::path& part) {
   silence_hdf5();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);

@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-/// The part of a run under way: a result file (HDF5) with room for everything that the run will measure, made by
-/// `ResultWriter::reserve` before the first frame. Values are then stored through a mapping of the file into
-/// memory, without a call of HDF5 or of the system. So the file opens at any moment, whatever ends the run
-/// (SIGKILL included) every value is in it that was stored before, a full disk shows before the run, and what is
-/// not measured yet is unset. Only a crash of the machine may take seconds; values of a row may then be missing.
+/// The part of a run under way: a result file (HDF5) with room for all values of the run, made by
+/// `ResultWriter::reserve` before the first frame. Values are then stored through a memory mapping
+/// of the file, without calls of HDF5 or the system. So the file opens at any moment and holds
+/// every value stored before, whatever ends the run (even SIGKILL); a full disk shows before the
+/// run; unmeasured values are unset. A crash of the machine may lose seconds, or values of a row.
 namespace lmdbench {
 
-/// `format` of a part, in place of RESULT_FORMAT: readers of results must not take it for a complete one.
+/// `format` of a part, unlike RESULT_FORMAT: readers must not take it for a complete result.
 inline constexpr const char* PART_FORMAT = "lmdbench-part";
 
 /// A reserved dataset: rows of 8-byte numbers.
@@ -33,7 +33,7 @@ class ReservedDataset {
   /// @param row_values  the row's numbers, 8 bytes each
   void set(std::size_t row, std::span<const std::byte> row_values);
   void get(std::size_t row, std::span<std::byte> row_values) const;
-  /// Whether the row has these very bits.
+  /// Whether the row has exactly these bits.
   bool holds(std::size_t row, std::span<const std::byte> row_values) const;
 
   double real(std::size_t row) const;
@@ -52,7 +52,7 @@ class PartialResult {
   /// Starts a part with the image of a file whose datasets are reserved.
   /// @throws EnvironmentError when there is no room on the disk
   PartialResult(PartFile& part, const std::string& image);
-  /// Goes on with what the part holds; unset when that is no complete part of this format. @throws as `check_hdf5`
+  /// Resumes a part; unset when it is no complete part of this format. @throws as `check_hdf5`
   static std::optional<PartialResult> open(PartFile& part);
 
   PartialResult(PartialResult&&) noexcept;
@@ -62,7 +62,7 @@ class PartialResult {
   /// Text attribute `fingerprint` of the root; empty where there is none.
   const std::string& fingerprint() const;
 
-  /// Holds the file open over many look-ups, or lets it go: no other reader in the same process can open it meanwhile.
+  /// Holds the file open over many look-ups; no other reader of this process can open it then.
   void hold_open(bool open);
 
   /// A reserved dataset.

@@ -110,7 +110,7 @@ std::map<std::string, std::string> key_values(const std::string& file, char sepa
   return pairs;
 }
 
-/// Values of one file of every processor, e.g. the governors: "performance" or "powersave, performance".
+/// Values of a file of every processor, as governors: "performance" or "powersave, performance".
 std::string per_processor(const std::string& file) {
   std::set<std::string> values;
   const long count = ::sysconf(_SC_NPROCESSORS_CONF);
@@ -152,7 +152,7 @@ std::string memory_bytes() {
   return pages > 0 && page > 0 ? std::to_string(static_cast<long long>(pages) * page) : UNKNOWN;
 }
 
-/// Frequency boost: one switch of AMD and acpi-cpufreq, and one of Intel that is turned around.
+/// Frequency boost: one switch of AMD and acpi-cpufreq, and Intel's, which has the opposite sense.
 std::string boost() {
   if (const std::string on = first_line("/sys/devices/system/cpu/cpufreq/boost"); on != UNKNOWN) {
     return on == "1" ? "on" : "off";

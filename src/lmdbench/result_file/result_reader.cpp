@@ -24,7 +24,7 @@ herr_t append_attribute(hid_t /*object*/, const char* name, const H5A_info_t* /*
   return 0;
 }
 
-/// Trailing zeros and blanks pad strings of fixed length.
+/// Strips the zeros and blanks that pad strings of fixed length.
 std::string unpadded(const char* text, std::size_t size) {
   while (size > 0 && (text[size - 1] == '\0' || text[size - 1] == ' ')) --size;
   return {text, ::strnlen(text, size)};
@@ -48,7 +48,7 @@ class ResultReader::Implementation {
       throw InputError(name_.string(), "", "cannot be opened as HDF5: " + last_hdf5_error(),
                        "check that it is a complete result of lmdbench run");
     check_format();
-    // Results of versions before this one have none.
+    // Older results have no hash.
     if (const auto hash = text_attribute("/", CONTENT_HASH)) check_content_hash(name_, *hash);
   }
 
@@ -82,7 +82,7 @@ class ResultReader::Implementation {
                          H5P_DEFAULT);
       name.pop_back();
       H5O_info_t object{};
-      static_cast<void>(has(group == "/" ? "/" + name : group + "/" + name));  // before a link is followed
+      static_cast<void>(has(group == "/" ? "/" + name : group + "/" + name));  // refuses links
       if (H5Oget_info_by_name2(handle.get(), name.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT) < 0)
         fail(group + "/" + name, "cannot be read: " + last_hdf5_error());
       if (object.type == wanted) names.push_back(std::move(name));
@@ -264,7 +264,7 @@ class ResultReader::Implementation {
     return sizes;
   }
 
-  /// Number of values, after checking that what is stored can hold as many.
+  /// Number of values, after a check that the stored bytes can hold so many.
   std::size_t checked_count(const std::string& path, const Hdf5Handle& dataset) const {
     const Hdf5Handle type(H5Dget_type(dataset.get()), &H5Tclose);
     const std::size_t value_size = H5Tget_size(type.get());

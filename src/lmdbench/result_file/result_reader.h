@@ -14,13 +14,13 @@
 
 namespace lmdbench {
 
-/// Reads one result file (HDF5, `results/README.md`) whoever wrote it: the whole file is checked for damage, format and
-/// major version when it is opened, every dataset for its type when it is read. Paths are absolute
-/// ("/methods/improved/force"). Links and datasets of other files are refused; HDF5's own crashes and loops on damaged
-/// files stay in a child process (`check_hdf5`).
+/// Reads one result file (HDF5, `results/README.md`) by any writer. Opening checks the whole file
+/// for damage, format and major version; reading checks a dataset's type. Paths are absolute
+/// ("/methods/improved/force"). Links and datasets of other files are refused; HDF5's own crashes
+/// and loops on damaged files stay in a child process (`check_hdf5`).
 ///
-/// Every function throws InputError (exit code 3) that names the file, the dataset and a remedy: a file that
-/// is missing, cut off, not HDF5, of another format or version, a dataset that is missing, damaged or of
+/// Every function throws InputError (exit code 3) naming the file, the dataset and a remedy: a file
+/// missing, cut off, not HDF5, of another format or version; a dataset missing, damaged or of
 /// another type. One reader serves one thread.
 class ResultReader {
  public:
@@ -31,7 +31,7 @@ class ResultReader {
 
   const std::filesystem::path& file() const;
 
-  /// Whether a group or dataset of that name is there.
+  /// Whether there is a group or dataset of that name.
   bool has(const std::string& path) const;
   /// Names inside a group, sorted; empty where the group is missing.
   std::vector<std::string> groups(const std::string& group) const;
@@ -48,7 +48,7 @@ class ResultReader {
 
   /// Names of the attributes of a group or dataset, sorted; empty where the object is missing.
   std::vector<std::string> attributes(const std::string& object) const;
-  /// What an attribute holds; unset where there is none of that name.
+  /// Kind of an attribute's value; unset where there is none of that name.
   std::optional<ElementKind> attribute_kind(const std::string& object, const std::string& name) const;
   /// Attributes of a group or dataset ("/" is the root); unset where there is none of that name.
   std::optional<std::string> text_attribute(const std::string& object, const std::string& name) const;

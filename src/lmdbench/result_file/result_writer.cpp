@@ -21,14 +21,14 @@ namespace lmdbench {
 
 namespace {
 
-/// Datasets of fewer bytes are stored in one piece: a compressed chunk would cost more than it saves.
+/// Datasets of fewer bytes are stored whole: a compressed chunk would cost more than it saves.
 constexpr std::size_t SMALLEST_COMPRESSED_BYTES = 16 * 1024;
-/// Chunks stay below this, so that a reader of a few frames inflates little; HDF5's chunk cache holds 1 MiB.
+/// Larger chunks would make readers of a few frames inflate much; HDF5's chunk cache holds 1 MiB.
 constexpr std::size_t LARGEST_CHUNK_BYTES = 256 * 1024;
 /// Deflate level: beyond 4 the files shrink by a few percent for several times the time.
 constexpr unsigned DEFLATE_LEVEL = 4;
 
-/// The file in memory grows by this much at a time, each cleared by HDF5 before it is used.
+/// Growth step of the file in memory; HDF5 clears each step first.
 constexpr std::size_t MEMORY_STEP_BYTES = 256 * 1024;
 
 /// Halves the chunk along the first axis, then along the next, until it is small enough.
@@ -58,10 +58,10 @@ class ResultWriter::Implementation {
   Implementation() {
     silence_hdf5();
     Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose, "made");
-    // The file grows in memory and reaches the disk in `commit`: HDF5 1.10 corrupts its own state, and
-    // crashes later, when closing an object meets a full disk.
+    // The file grows in memory and reaches the disk in `commit`: HDF5 1.10 corrupts its own state
+    // when closing an object meets a full disk, and crashes later.
     check(H5Pset_fapl_core(access.get(), MEMORY_STEP_BYTES, false), "made");
-    // Reserved datasets are written through a mapping: whole numbers never lie across two pages.
+    // Reserved datasets are written through a mapping: no number may cross two pages.
     check(H5Pset_alignment(access.get(), 1, sizeof(double)), "made");
     // HDF5 takes two open files in memory of the same name for one.
     const std::string own_name = fmt::format("result in memory {}", fmt::ptr(this));
@@ -102,7 +102,7 @@ class ResultWriter::Implementation {
       check(H5Pset_shuffle(creation.get()), action);
       check(H5Pset_deflate(creation.get(), DEFLATE_LEVEL), action);
       check(H5Pset_fletcher32(creation.get()),
-            action);  // a reader of any kind notices flipped bytes, and where
+            action);  // every reader notices flipped bytes
     }
     Hdf5Handle dataset = checked(H5Dcreate2(file_.get(), info.path.c_str(), file_type, space.get(),
                                             link_creation_.get(), creation.get(), H5P_DEFAULT),
@@ -184,7 +184,7 @@ class ResultWriter::Implementation {
   }
 
  private:
-  /// Every public step starts here: HDF5's printing is a setting of the thread.
+  /// Every public step starts here: HDF5's printing is set by thread.
   void begin() {
     if (!file_.valid()) throw std::logic_error(name() + ": written to after commit");
     silence_hdf5();
@@ -218,7 +218,7 @@ class ResultWriter::Implementation {
     return Hdf5Handle(id, closer);
   }
 
-  /// HDF5 answers for a path only when everything before its last name is there.
+  /// HDF5 answers for a path only when all its parents exist.
   bool exists(const std::string& path) const {
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
       const std::string part = path.substr(0, end);

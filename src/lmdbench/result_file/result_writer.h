@@ -17,21 +17,20 @@ namespace lmdbench {
 
 /// What a reader must know of a dataset; the writer cannot make one without it.
 struct DatasetInfo {
-  std::string
-      path;  ///< Absolute path in the file, e.g. "/methods/improved/force"; groups are made as needed.
+  std::string path;       ///< Absolute, e.g. "/methods/improved/force"; groups are made.
   std::string units;      ///< SI symbol, "1" for counts, ratios and indices
   std::string long_name;  ///< One phrase
 };
 
-/// Values that are not known yet, in `ResultWriter::reserve`: NaN, or this where the numbers are integers.
+/// Unknown values in `ResultWriter::reserve` are NaN, or this for integers.
 inline constexpr std::int64_t UNSET_INTEGER = -1;
 
-/// Writes one result file (HDF5). It is kept in memory until `commit`, which writes it beside its name, brings
-/// it to the disk and gives it the final name: an earlier result of that name is whole until then, and an
-/// interrupted run never looks like a finished one. The `.part` file is made at once, so that a wrong place
-/// is reported before a long run.
-/// @throws EnvironmentError when the file cannot be made, written or renamed, or when another run is
-///         writing it
+/// Writes one result file (HDF5). `commit` writes it from memory to a `.part` file, flushes that to
+/// disk and gives it the final name: until then an earlier result stays whole, and an interrupted
+/// run never looks finished. The `.part` file is made at once, so that a bad place shows before a
+/// long run.
+/// @throws EnvironmentError when the file cannot be made, written or renamed, or when another run
+///         is writing it
 /// @throws std::invalid_argument for a shape that does not fit, a path that is not absolute or was
 ///         written before, and missing units or long name: mistakes of the calling code
 class ResultWriter {
@@ -42,7 +41,8 @@ class ResultWriter {
   ResultWriter(const ResultWriter&) = delete;
   ResultWriter& operator=(const ResultWriter&) = delete;
 
-  /// Row-major datasets; the product of `shape` equals `values.size()`, and a zero-sized shape is allowed.
+  /// Row-major datasets; the product of `shape` equals `values.size()`, and a zero-sized shape is
+  /// allowed.
   /// Chunked along the first axis, shuffled and deflated where they are large enough for it.
   void write(const DatasetInfo& info, std::span<const double> values, const std::vector<std::size_t>& shape);
   void write(const DatasetInfo& info, std::span<const std::int64_t> values,
@@ -51,7 +51,7 @@ class ResultWriter {
              const std::vector<std::size_t>& shape);
   void write(const DatasetInfo& info, const std::vector<std::string>& values);
 
-  /// A dataset whose values come later and by other means (`PartialResult`): contiguous, every value unset.
+  /// A dataset whose values come later by `PartialResult`: contiguous, every value unset.
   void reserve(const DatasetInfo& info, ElementKind kind, const std::vector<std::size_t>& shape);
 
   /// Attributes of the group or dataset at `path` ("/" is the root; missing groups are made).
@@ -59,14 +59,14 @@ class ResultWriter {
   void attribute(const std::string& path, const std::string& name, std::int64_t value);
   void attribute(const std::string& path, const std::string& name, double value);
 
-  /// The file as it stands.
+  /// The file so far.
   std::string image();
 
   /// The part that `commit` turns into the result.
   PartFile& part();
 
-  /// Adds the hash of the content (`hdf5_check.h`), flushes to disk and gives the file its name, replacing an earlier one at once. When it throws, nothing
-  /// is lost: it may be called again.
+  /// Adds the content's hash (`hdf5_check.h`), flushes to disk and gives the file its name,
+  /// replacing an earlier one at once. After a throw nothing is lost: call it again.
   void commit();
 
  private:

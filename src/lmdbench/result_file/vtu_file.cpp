@@ -73,7 +73,7 @@ std::string vtu_text(const VtuGrid& grid) {
   std::vector<double> coordinates;
   coordinates.reserve(3 * grid.points.size());
   for (const Vec3& p : grid.points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  // A mesh is there to be looked at: single precision halves its file.
+  // Meshes are for the eye: single precision halves the file.
   if (grid.cell == VtuCell::TRIANGLE)
     add_array<float>(text, "Float32", "points", 3,
                      std::vector<float>(coordinates.begin(), coordinates.end()));

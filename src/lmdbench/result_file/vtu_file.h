@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-/// Files of the Visualization Toolkit's XML formats as ParaView opens them: unstructured grids (.vtu) and collections of them
-/// over time (.pvd). Numbers stand in them as text: any XML reader reads them, and no byte order is to be agreed on.
-/// Format: "VTK File Formats", docs.vtk.org.
+/// Files of the Visualization Toolkit's XML formats for ParaView: unstructured grids (.vtu) and
+/// their collections over time (.pvd). Numbers are text: any XML reader reads them, in any byte
+/// order. Format: "VTK File Formats", docs.vtk.org.
 namespace lmdbench {
 
 /// VTK's numbers of the cell types in use.
@@ -23,7 +23,7 @@ struct VtuArray {
   std::string name;            ///< With its unit: "distance [m]".
   std::size_t components = 1;  ///< 1, or 3 for a vector.
   std::vector<double>
-      values;  ///< components times as many as points or cells; finite, since the format has no NaN.
+      values;  ///< components times the number of points or cells; finite: no NaN in the format.
 };
 
 /// Points and cells of one kind.
@@ -31,7 +31,7 @@ struct VtuGrid {
   std::vector<Vec3> points;
   VtuCell cell = VtuCell::VERTEX;
   std::vector<std::int32_t> corners;  ///< Indices of points, cell after cell.
-  std::vector<std::int32_t> ends;     ///< Of every cell the number of corners up to its end.
+  std::vector<std::int32_t> ends;     ///< Of every cell the number of corners to its end.
   std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
 

@@ -13,8 +13,8 @@
 
 namespace lmdbench {
 
-/// One dataset of a table of rows: numbers and flags along one axis, vectors and quaternions (x, y, z, w) along two.
-/// @param project gives the number, flag, text, Vec3 or quaternion of a row
+/// One dataset of a table of rows: numbers and flags in one axis, vectors, quaternions in two.
+/// @param project gives the number, flag, text, Vec3 or quaternion (x, y, z, w) of a row
 template <typename Row, typename Project>
 void write_column(ResultWriter& writer, const DatasetInfo& info, const std::vector<Row>& rows,
                   Project project) {

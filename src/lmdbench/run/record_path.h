@@ -10,10 +10,10 @@
 
 namespace lmdbench {
 
-/// Path that the simulated device takes when the experiment's first method renders the force: one pose a frame, true
-/// positions (not the encoders'), orientations of the meant path. Probes and the other methods are left out.
-/// @param every keep every so many-th frame, from the first one on; at least 1
-/// @throws UsageError for an experiment whose loop is open; Interrupted when `progress` returned false
+/// Path of the simulated device when the experiment's first method renders the force: one pose a
+/// frame, true positions (not the encoders'), orientations of the intended path. No probes.
+/// @param every keeps every so many-th frame, from the first one on; at least 1
+/// @throws UsageError for an open loop; Interrupted when `progress` returned false
 Path record_path(const Experiment& experiment, std::size_t every = 1, const RunProgress& progress = {});
 
 }  // namespace lmdbench

@@ -20,10 +20,9 @@
 namespace lmdbench {
 namespace {
 
-/// What the run itself found out that a reader must know.
+/// Notes of the run itself that a reader must know.
 void note_findings(const Experiment& experiment, RunResult& result) {
-  std::map<std::string, std::ptrdiff_t>
-      in_contact;  // by label: notes must not depend on the order of methods
+  std::map<std::string, std::ptrdiff_t> in_contact;  // by label: in any order of methods
   for (const MethodRecord& record : result.records)
     in_contact[record.label] =
         std::count_if(record.frames.begin(), record.frames.end(),
@@ -58,7 +57,7 @@ void note_findings(const Experiment& experiment, RunResult& result) {
           result.warnings.push_back(std::move(note));
 }
 
-/// What is wrong with the methods from outside: no other method is touched by it.
+/// Faults of methods from outside, which affect no other method.
 void note_outsiders(const Experiment& experiment, RunResult& result) {
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const MethodDescription& method = method_description(experiment.methods[i].name);
@@ -87,7 +86,7 @@ void note_outsiders(const Experiment& experiment, RunResult& result) {
   }
 }
 
-/// Which methods share poses and profile.
+/// Groups the methods that share poses and profile.
 void make_tracks(const Experiment& experiment, RunResult& result) {
   const bool shared = !experiment.loop.closed;
   if (shared) result.tracks.resize(experiment.profiles.size());
@@ -102,7 +101,7 @@ void make_tracks(const Experiment& experiment, RunResult& result) {
   result.one_track = shared && result.tracks.size() == 1;
 }
 
-/// What the probes find along a track.
+/// Runs the probes along a track.
 /// @param input the run's, with the poses of the track
 void probe(const Experiment& experiment, const std::vector<DrivenMethod>& methods, const DriverInput& input,
            RunResult& result, Track& track,
@@ -125,7 +124,7 @@ void probe(const Experiment& experiment, const std::vector<DrivenMethod>& method
       probed.choices.push_back(&experiment.methods[i]);
       probed.records.push_back(&result.records[i]);
     }
-    // Frames whose sets nobody knows cannot be compared: a recorder on the clock may lose some.
+    // Frames without a method's set cannot be compared: a realtime recorder may lose some.
     if (probe.reads_lmds)
       std::erase_if(probed.frames, [&](std::int64_t frame) {
         return std::ranges::any_of(result.records,

@@ -22,16 +22,16 @@
 
 namespace lmdbench {
 
-/// Poses under one force profile, with what is known of them beside any method's opinion. In an open loop the methods of a
-/// profile share one; in a closed one each has its own, since its device takes its own path.
+/// Poses under one force profile, with facts that depend on no method. In an open loop the methods
+/// of a profile share one track; in a closed one each has its own, the path of its device.
 struct Track {
   std::size_t profile = 0;           ///< Of the experiment.
-  std::vector<std::size_t> methods;  ///< Which of the experiment's methods went along it.
+  std::vector<std::size_t> methods;  ///< Indices of the experiment's methods with these poses.
   std::vector<bool> in_contact;      ///< One a frame (contact.h).
-  /// Of the probes that the plan has, by name.
+  /// Of the plan's probes, by name.
   std::map<std::string, std::unique_ptr<const ProbeFindings>, std::less<>> findings;
 
-  /// Null where the plan leaves the probe out, and where it looks at no frame.
+  /// Null where the plan has no such probe, or it looks at no frame.
   const TruthFindings* truth() const { return found<TruthFindings>("truth"); }
   const FclCheck* fcl() const { return found<FclCheck>("fcl"); }
 
@@ -43,46 +43,46 @@ struct Track {
   }
 };
 
-/// Everything that a run produced, in memory.
+/// All results of a run, in memory.
 struct RunResult {
   Plan plan;
   PreparedRun prepared;
-  std::vector<MethodRecord> records;   ///< In the order of the experiment's methods, like the next two.
+  std::vector<MethodRecord> records;   ///< In the experiment's order, as the next two.
   std::vector<RealtimeRecord> clocks;  ///< Of the driver realtime; else empty.
   std::vector<std::size_t> track_of_method;
   std::vector<Track> tracks;
-  bool one_track = false;             ///< All methods see the poses of the path under one profile.
-  std::vector<bool> in_contact;       ///< One a frame of the path, under the first profile's cutoff.
-  std::vector<std::string> warnings;  ///< What a reader of the result must know, in plain words.
-  std::int64_t resumed_frames =
-      0;  ///< Whose times an interrupted run measured, over methods and repetitions.
+  bool one_track = false;             ///< All methods share the path's poses and a profile.
+  std::vector<bool> in_contact;       ///< One a frame, under the first profile's cutoff.
+  std::vector<std::string> warnings;  ///< Facts for readers of the result, in plain words.
+  /// Frames with times from an interrupted run, over all methods and repetitions.
+  std::int64_t resumed_frames = 0;
 
   const Track& track_of(std::size_t method) const { return tracks[track_of_method[method]]; }
-  /// Which one of its track a method is.
+  /// Index of a method in its track.
   std::size_t place_of(std::size_t method) const;
-  /// Of a method with truth; one entry a TruthFrame. Empty where the truth probe is off.
+  /// Of a method with truth, one for each TruthFrame; empty without the truth probe.
   const std::vector<TruthComparison>& comparisons(std::size_t method) const;
-  /// Group of the file that a track's datasets stand in: empty where all methods share it, else the method's.
+  /// Group of a track's datasets in the file: empty where all methods share it, else the method's.
   std::string group_of(const Track& track) const {
     return one_track ? "" : "/methods/" + records[track.methods.front()].label;
   }
 };
 
-/// A larger share of clipped frames in contact is worth a word: there a force says nothing of its LMDs.
+/// Above this share of clipped frames in contact a run warns: clipped forces hide LMDs' effects.
 inline constexpr double CLIPPED_SHARE = 0.1;
 
-/// Unset where no more than CLIPPED_SHARE of the frames in contact are clipped.
+/// Unset where at most CLIPPED_SHARE of the frames in contact are clipped.
 std::optional<SceneWarning> clipping_warning(const MethodRecord& record, const std::vector<bool>& in_contact);
 
-/// What a run reports while it goes on: the phase ("run", "truth", "fcl", "polylines"), what is done and what there is to
-/// do. False stops the run after the current block.
+/// Reports of a run in progress: the phase ("run", "truth", "fcl", "polylines"), work done and work
+/// in all. False stops the run after the current block.
 using RunProgress = std::function<bool(const std::string& phase, std::int64_t done, std::int64_t total)>;
 
-/// Makes what keeps the frames of a prepared run.
+/// Makes the object that keeps the frames of a prepared run.
 using MakeKeeper = std::function<std::unique_ptr<RunKeeper>(const RunResult&, std::int64_t frames)>;
 
 /// Runs an experiment in memory.
-/// @param make_keeper none for a run that nobody takes up again
+/// @param make_keeper none for a run that will not be resumed
 /// @throws Interrupted when `progress` returned false
 RunResult run_experiment(const Experiment& experiment, const RunProgress& progress = {},
                          const MakeKeeper& make_keeper = {});

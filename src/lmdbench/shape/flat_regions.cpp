@@ -67,7 +67,7 @@ class StraightEdgeFinder {
     return {std::min(region(0), region(1)), std::max(region(0), region(1))};
   }
 
-  /// Whether only triangles that add nothing meet somewhere.
+  /// Whether all of the triangles add nothing, and there are some.
   bool adds_nothing(std::span<const std::int32_t> triangles) const {
     return !regions_.adds_nothing.empty() && !triangles.empty() &&
            std::ranges::all_of(
@@ -82,7 +82,7 @@ class StraightEdgeFinder {
     return pair[0] >= 0 && pair[0] == pair[1];
   }
 
-  /// The edge that goes on beyond `v` in the line of `edge`, or -1.
+  /// The edge that continues `edge` in its line beyond `v`, or -1.
   std::int32_t continuation(std::int32_t edge, std::int32_t v) const {
     if (border_count_[static_cast<std::size_t>(v)] != 2) return -1;
     const auto& borders = borders_of_vertex_[static_cast<std::size_t>(v)];
@@ -169,7 +169,7 @@ class StraightEdgeFinder {
       if (adds_nothing(triangles)) regions_.vertex_is_inside[i] = true;
       if (triangles.empty() || !has_area) continue;
       if (border_count_[i] == 0) {
-        // Two sheets may meet in a vertex.
+        // Two sheets may share a vertex.
         regions_.vertex_is_inside[i] = std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
           return regions_.region_of_triangle[static_cast<std::size_t>(t)] ==
                  regions_.region_of_triangle[static_cast<std::size_t>(triangles.front())];

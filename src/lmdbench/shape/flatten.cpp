@@ -23,18 +23,18 @@ namespace {
 
 /// Roundings of a double at the largest coordinate within which a plane is flat already.
 constexpr double FLAT_ULPS = 16.0;
-/// Neighbouring triangles within this many tolerances of one plane tell how many are within one by chance.
+/// Neighbours within this many tolerances of one plane tell how many are within one by chance.
 constexpr double BAND = 10.0;
-/// Faces of a size count where there are more than this many times as many as chance gives.
+/// Faces of a size count where there are more than this many times as many as by chance.
 constexpr double EVIDENCE = 4.0;
 /// Places round a face of four where chance may add a fifth vertex.
 constexpr double PLACES = 8.0;
-/// Triangles lower than this many tolerances have no plane to speak of.
+/// The plane of a triangle lower than this many tolerances is noise.
 constexpr double LEAST_ALTITUDE = 16.0;
-/// Planes at a smaller angle (a sine) are one where their points agree.
+/// Planes at a smaller angle (a sine) are one if their points agree.
 constexpr double SAME_PLANE_SINE = 1e-3;
 
-/// A plane that vertices are to lie in.
+/// A plane for vertices.
 struct Constraint {
   Plane plane;
   std::vector<std::int32_t> vertices;
@@ -42,10 +42,10 @@ struct Constraint {
   bool was_joined = false;  ///< Of several faces.
 };
 
-/// How many pairs of neighbouring triangles are within 1 and how many within BAND tolerances of one plane.
+/// Pairs of neighbouring triangles, in all and between 1 and BAND tolerances from one plane.
 struct Coplanarity {
   std::size_t pairs = 0, in_band = 0;
-  /// Chance of a pair to be within one tolerance, taking heights near 0 as evenly spread.
+  /// Chance of a pair to be within one tolerance, if heights near 0 are evenly distributed.
   double chance() const {
     return pairs == 0 ? 0.0 : static_cast<double>(in_band) / (BAND - 1.0) / static_cast<double>(pairs);
   }
@@ -75,7 +75,7 @@ Coplanarity coplanarity(const Surface& surface, double tolerance) {
     if (!(least > LEAST_ALTITUDE * tolerance)) continue;
     for (const std::size_t k : {0u, 1u}) {
       const Vec3& normal = surface.face_normals[static_cast<std::size_t>(triangles[1 - k])];
-      // A rounded plane is off by the more the farther the corner is.
+      // A rounded plane is off by more at a farther corner.
       const double widened = 1.0 + altitude[k] / altitude[1 - k];
       height = std::max(height, std::abs(normal.dot(apex[k] - p)) / widened);
     }
@@ -88,7 +88,7 @@ Coplanarity coplanarity(const Surface& surface, double tolerance) {
 /// Faces of four and more vertices that chance does not explain.
 std::vector<Constraint> find_constraints(const Surface& surface, double tolerance) {
   std::vector<PlanarFace> faces = planar_faces(surface, tolerance);
-  std::map<std::size_t, std::size_t> count_of_spare;  // faces with that many vertices more than three
+  std::map<std::size_t, std::size_t> count_of_spare;  // faces by vertices more than three
   for (const PlanarFace& face : faces)
     if (face.vertices.size() > 3) ++count_of_spare[face.vertices.size() - 3];
   const Coplanarity pairs = coplanarity(surface, tolerance);
@@ -116,8 +116,8 @@ std::vector<std::vector<std::size_t>> planes_of_vertices(const TriangleMesh& mes
   return planes;
 }
 
-/// Joins faces that meet in a vertex and lie in one plane: two planes a rounding apart share no sensible
-/// line.
+/// Joins faces that meet in a vertex and are in one plane: two planes a rounding apart share no
+/// sensible line.
 class CoplanarJoining {
  public:
   CoplanarJoining(const TriangleMesh& mesh, std::vector<Constraint>& constraints, double tolerance)
@@ -139,8 +139,8 @@ class CoplanarJoining {
   }
 
  private:
-  /// A face with fewer than this part of the other one's vertices has to fit into the other's plane as it is: to fit both anew for
-  /// each of the thousands of pieces of a plate takes the square of their number.
+  /// A face with fewer than this part of the other's vertices must fit into the other's plane:
+  /// fitting both anew for each of a plate's thousands of faces takes the square of their number.
   static constexpr std::size_t SMALL_PART = 8;
 
   std::size_t root(std::size_t c) {
@@ -203,11 +203,11 @@ std::optional<Vec3> put_into(const Vec3& p, const std::vector<std::size_t>& plan
   Eigen::MatrixXd normals(planes.size(), 3);
   for (std::size_t i = 0; i < planes.size(); ++i)
     normals.row(static_cast<Eigen::Index>(i)) = constraints[planes[i]].plane.normal.transpose();
-  // Thin: a full U would be square in the planes, of which the hub of a fan may have thousands.
+  // Thin: a full U would be square in the planes, and the hub of a fan may have thousands.
   Eigen::JacobiSVD<Eigen::MatrixXd> solver(normals, Eigen::ComputeThinU | Eigen::ComputeThinV);
   solver.setThreshold(1e-6);
   Eigen::VectorXd heights(planes.size());
-  // The second step takes what the first left by rounding.
+  // The second step removes the rounding of the first.
   for (int step = 0; step < 3; ++step) {
     for (std::size_t i = 0; i < planes.size(); ++i)
       heights[static_cast<Eigen::Index>(i)] = constraints[planes[i]].plane.height(moved);
@@ -218,10 +218,10 @@ std::optional<Vec3> put_into(const Vec3& p, const std::vector<std::size_t>& plan
   return moved;
 }
 
-/// A mesh counted in an order that its coordinates alone decide.
+/// A mesh numbered in an order that its coordinates alone decide.
 struct OrderedMesh {
   TriangleMesh mesh;
-  std::vector<std::int32_t> vertices;  ///< Of the mesh that it was made of, in this order.
+  std::vector<std::int32_t> vertices;  ///< Of the original mesh, in this order.
 };
 
 OrderedMesh in_order_of_coordinates(const TriangleMesh& mesh) {
@@ -248,7 +248,7 @@ OrderedMesh in_order_of_coordinates(const TriangleMesh& mesh) {
   return ordered;
 }
 
-/// Puts vertices into the planes that hold them. A plane that would pull one too far is given up, and all begins again.
+/// Puts vertices into their planes. Gives up planes that pull one too far, and starts again.
 std::vector<Vec3> put_back(const TriangleMesh& mesh, std::vector<Constraint>& constraints, double tolerance,
                            double flat) {
   std::vector<Vec3> moved;
@@ -258,7 +258,7 @@ std::vector<Vec3> put_back(const TriangleMesh& mesh, std::vector<Constraint>& co
     const auto planes = planes_of_vertices(mesh, constraints);
     for (std::size_t v = 0; v < moved.size(); ++v) {
       const Vec3& p = mesh.vertices[v];
-      // Another vertex may have given up one of the planes just now: the next round sees to it.
+      // Another vertex may have just given up one of the planes: left to the next round.
       if (planes[v].empty() || std::any_of(planes[v].begin(), planes[v].end(),
                                            [&](std::size_t c) { return !constraints[c].stands; }))
         continue;
@@ -286,7 +286,7 @@ FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
   if (!(report.tolerance > 0.0)) return report;
   const double flat = FLAT_ULPS * std::numeric_limits<double>::epsilon() * largest_coordinate(mesh.vertices);
   if (report.tolerance <= flat) return report;
-  // Faces grow, join and are given up in an order: it is that of coordinates, not of the file.
+  // Faces grow, join and are given up in the order of coordinates, not of the file.
   const OrderedMesh ordered = in_order_of_coordinates(mesh);
   std::vector<Constraint> constraints = find_constraints(build_surface(ordered.mesh), report.tolerance);
   CoplanarJoining(ordered.mesh, constraints, report.tolerance).run();
@@ -312,7 +312,7 @@ std::string to_text(const FlatteningReport& report) {
   if (!(report.tolerance > 0.0)) return "taken as they are (planar tolerance 0)";
   if (report.moved_vertices == 0)
     return fmt::format("no vertex had to be put back into a plane (tolerance {:.3g})", report.tolerance);
-  // A vertex on two or three planes goes farther than it is from each of them.
+  // A vertex on several planes moves farther than its distance from each.
   return fmt::format(
       "{} vertices put back into {} planes that they were within {:.3g} of; the farthest moved by {:.3g} "
       "(allowed: {:.3g})",

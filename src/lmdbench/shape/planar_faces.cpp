@@ -15,9 +15,9 @@ namespace {
 
 /// A triangle whose least altitude is under this many tolerances starts no face.
 constexpr double LEAST_SEED_ALTITUDE = 16.0;
-/// A triangle whose least altitude is under this many tolerances may face any way: its normal is noise.
+/// A triangle whose least altitude is under this many tolerances may face any way: noise.
 constexpr double LEAST_ORIENTED_ALTITUDE = 4.0;
-/// Points that three corners give before the plane is fitted again.
+/// Points of a face at which its plane is fitted first; before, one triangle gives it.
 constexpr std::size_t FIRST_FIT = 6;
 
 struct TriangleSize {
@@ -97,8 +97,8 @@ class Grower {
     faces_.push_back(std::move(face));
   }
 
-  /// Collects in reached_, vertices_ and points_ what can be reached from the seed.
-  /// @param adapt the plane follows the points, with the tolerance widened by how little they fix it
+  /// Collects in reached_, vertices_ and points_ all that is reachable from the seed.
+  /// @param adapt the plane follows the points, with the tolerance widened by its uncertainty
   void reach(std::int32_t seed, FittedPlane plane, bool adapt) {
     start(seed);
     const auto is_near = [&](std::int32_t index) {
@@ -135,7 +135,7 @@ class Grower {
     }
   }
 
-  /// Marks what was reached, where that is several triangles, and all that was looked at on the way.
+  /// Marks the triangles reached, if there are several, and all that were tested on the way.
   void note_looked_at() {
     if (looked_at_ == nullptr || reached_.size() < 2) return;
     for (const std::int32_t triangle : reached_) {
@@ -191,7 +191,7 @@ std::vector<PlanarFace> planar_faces(const Surface& surface, double tolerance, s
 
 namespace {
 
-/// What a face starts with, for a quick look at its neighbours.
+/// Start of a face, for a quick test of its neighbours.
 struct FaceStart {
   Vec3 point, normal;
   double squared_altitude = 0.0;
@@ -205,8 +205,8 @@ struct FaceStart {
       squared_altitude = (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() / squared_longest;
   }
 
-  /// Whether the first growth of a face could take in a corner, or one a little farther away: |height| <= tolerance (2 + distance /
-  /// breadth), squared with (a + b)^2 <= 2 a^2 + 2 b^2.
+  /// Whether the first growth of a face could take in a corner, or one a little farther away:
+  /// |height| <= tolerance (2 + distance / breadth), squared with (a + b)^2 <= 2 a^2 + 2 b^2.
   bool may_reach(const Vec3& corner, double tolerance) const {
     const double squared_breadth = 2.0 / 9.0 * squared_altitude;
     const Vec3 from = corner - point;

@@ -9,10 +9,10 @@
 
 namespace lmdbench {
 
-/// How far vertices of one plane may have left it, as a user states it.
+/// Distance by which vertices of one plane may have left it, as a user gives it.
 struct PlanarTolerance {
   enum class Kind : std::uint8_t {
-    AUTO,     ///< What the coordinates' own precision leaves: `single_precision_tolerance`.
+    AUTO,     ///< Of the coordinates' own precision: `single_precision_tolerance`.
     LENGTH,   ///< `value` in metres; 0: vertices stay where they are.
     DIAGONAL  ///< `value` times the bounding box's diagonal.
   };
@@ -24,23 +24,23 @@ struct PlanarTolerance {
   bool operator==(const PlanarTolerance&) const = default;
 };
 
-/// "auto", "off" or "0", a length in metres ("1e-6"), or a share of the diagonal in percent ("0.0001%").
+/// "auto", "off" or "0", metres ("1e-6"), or a share of the diagonal in percent ("0.0001%").
 /// @throws UsageError naming `place`
 PlanarTolerance parse_planar_tolerance(const std::string& text, const std::string& file,
                                        const std::string& place);
 std::string to_string(const PlanarTolerance& tolerance);
 
-/// Units in the last place of a single-precision number at the mesh's largest coordinate that the vertices of
-/// one plane may be apart from it. Rounding three coordinates moves a vertex by at most 0.87 of them; files
-/// whose vertices were turned or scaled in single precision carry a few such steps.
+/// Distance of the vertices of one plane from it, in units in the last place of single precision at
+/// the mesh's largest coordinate. Rounding three coordinates moves a vertex by at most 0.87; files
+/// with vertices turned or scaled in single precision carry a few such steps.
 inline constexpr double SINGLE_PRECISION_ULPS = 4.0;
 
-/// Whether a coordinate is a single-precision number: exactly, or as the decimals that files write for one
-/// (the shortest that read back to it, or nine significant digits).
+/// Whether a coordinate is a single-precision number: exactly, or as the decimals that files write
+/// for one (the shortest that read back to it, or nine significant digits).
 bool is_single_precision(double coordinate);
 
-/// SINGLE_PRECISION_ULPS where every coordinate is a single-precision number, else 0: doubles that are no
-/// floats are taken at their word.
+/// SINGLE_PRECISION_ULPS where every coordinate is a single-precision number, else 0: other doubles
+/// are taken as exact.
 double single_precision_tolerance(const TriangleMesh& mesh);
 
 }  // namespace lmdbench

@@ -14,7 +14,7 @@ namespace lmdbench {
 FittedPlane fit_plane(std::span<const Vec3> points, const Vec3& towards) {
   LMDBENCH_ALWAYS(!points.empty(), "a region without triangles");
   const double count = static_cast<double>(points.size());
-  // From the first point, so that far coordinates cost no digits.
+  // From the first point: far coordinates cost no digits.
   Vec3 sum = Vec3::Zero();
   for (const Vec3& p : points) sum += p - points.front();
   FittedPlane fit;

@@ -18,16 +18,16 @@ namespace lmdbench {
 
 namespace {
 
-/// Slopes that differ by less than this are one line: the angle at which a piece may be bent inwards.
+/// Slopes that differ by less are one line: a piece may bend inwards by that angle.
 constexpr double SLOPE_ROUNDING = 1e-9;
-/// How far apart the ends of a piece and its continuation may be, in tolerances.
+/// Most distance of the ends of a piece and its continuation, in tolerances.
 constexpr double CONTINUATION = 4.0;
 
 /// A side that is not level, from its lower to its upper end.
 struct Climb {
   Vec2 low, high;
-  int winding;        ///< What is right of it is wound round so much more often than what is left.
-  std::size_t owner;  ///< Which polygon.
+  int winding;        ///< Winding number to its right less that to its left.
+  std::size_t owner;  ///< Index of its polygon.
   double slope;
 
   Climb(const PolygonSide& side, std::size_t of)
@@ -38,7 +38,7 @@ struct Climb {
   double x_at(double y) const { return low[0] + slope * (y - low[1]); }
 };
 
-/// A side that meets a row, and where at its middle.
+/// A side in a row, and its place at the row's middle.
 struct Active {
   const Climb* climb;
   double x;
@@ -53,7 +53,7 @@ struct Outline {
 struct OpenPiece {
   static constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
 
-  const Climb *left, *right;  ///< Between which it is at the top.
+  const Climb *left, *right;  ///< The sides at its top.
   double left_slope, right_slope;
   double left_x, right_x;  ///< At the top.
   std::size_t part = 0;
@@ -79,7 +79,7 @@ class Sweep {
     std::sort(heights_.begin(), heights_.end());
   }
 
-  /// The pieces with the parts that they are of, part by part.
+  /// The pieces by part.
   std::vector<SharedPart> run() {
     std::size_t next = 0;
     std::vector<Active> active;
@@ -142,8 +142,8 @@ class Sweep {
     before_.clear();
   }
 
-  /// Where two sides are at a height. A side that is all but level is known badly there: where the two seem to have crossed, the
-  /// steeper one says where.
+  /// Places of two sides at a height. A nearly level side is inaccurate there: where the two seem
+  /// to have crossed, the steeper one counts.
   static std::pair<double, double> ends_at(const Climb& left, const Climb& right, double y) {
     const double from = left.x_at(y), to = right.x_at(y);
     if (from <= to) return {from, to};
@@ -169,7 +169,7 @@ class Sweep {
     OpenPiece* below = first_before_ < before_.size() ? &before_[first_before_] : nullptr;
     if (below != nullptr && below->left == &left && below->right == &right &&
         below->outline != OpenPiece::NONE) {
-      // Between the same sides as in the row below: what it meets there has met it there.
+      // Same sides as in the row below: it met the same neighbours there.
       piece.part = below->part;
       take_outline(piece, *below);
       outlines_[piece.outline].left.back() = left_top;
@@ -181,7 +181,7 @@ class Sweep {
     open_.push_back(piece);
   }
 
-  /// A piece goes on from the one below where the two together are convex.
+  /// A piece continues the one below where the two together are convex.
   void grow_or_begin(OpenPiece& piece, const Vec2& left_bottom, const Vec2& right_bottom,
                      const Vec2& left_top, const Vec2& right_top) {
     const double gap = CONTINUATION * tolerance_;
@@ -262,11 +262,11 @@ class Sweep {
   std::vector<Climb> climbs_;
   std::vector<Outline> outlines_;
   std::vector<OpenPiece> open_, before_;  ///< Of this row and the one below, from left to right.
-  std::size_t first_before_ = 0;          ///< The first of before_ that is not left of the row so far.
+  std::size_t first_before_ = 0;          ///< The first of before_ not left of the row so far.
   double last_right_bottom_ = 0.0;        ///< Of the last trapezoid of the row.
   std::vector<ConvexPolygon> pieces_;
   std::vector<std::size_t> part_of_piece_;
-  std::size_t part_count_ = 0;                                 ///< One a trapezoid, until they are joined.
+  std::size_t part_count_ = 0;                                 ///< One a trapezoid, before joining.
   std::vector<std::pair<std::size_t, std::size_t>> meetings_;  ///< Of parts.
 };
 

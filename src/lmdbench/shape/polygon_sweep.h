@@ -14,19 +14,19 @@ struct PolygonSide {
   Vec2 from, to;
 };
 
-/// Cuts a polygon into convex pieces: a line sweeps upwards over its corners; between two of them the inside
-/// is a row of trapezoids, and one that goes on in the next row is joined to it while the piece stays convex
-/// (so a convex polygon is one piece). Sides may touch or lie on each other: what counts is how often a point
-/// is wound round. Corners whose heights differ by no more than the tolerance are level, and what is between
-/// them is left out.
+/// Cuts a polygon into convex pieces. A line sweeps upwards over its corners; between two of them
+/// the inside is a row of trapezoids. A trapezoid is joined to the one below while the piece stays
+/// convex (a convex polygon is one piece). Sides may touch or overlap: winding numbers decide.
+/// Corners whose heights differ by the tolerance or less are level, and the strip between them is
+/// skipped.
 std::vector<ConvexPolygon> convex_pieces(std::span<const PolygonSide> sides, double tolerance);
 
-/// A connected part of what two polygons share: convex pieces, side by side.
+/// A connected part of the overlap of two polygons: convex pieces, side by side.
 using SharedPart = std::vector<ConvexPolygon>;
 
-/// What two polygons share, by the same sweep over the sides of both; the heights at which sides cross are corners, too. Parts
-/// that come within the tolerance of each other are one. Rounding adds or loses slivers as narrow as the tolerance and
-/// nothing else. n log n in the sides and their crossings, times the sides that a height meets.
+/// Overlap of two polygons, by the same sweep over the sides of both; heights at which sides cross
+/// are corners, too. Parts within the tolerance of each other are one. Rounding adds or loses only
+/// slivers as narrow as the tolerance. n log n in sides and crossings, times the sides at a height.
 std::vector<SharedPart> shared_parts(std::span<const PolygonSide> a, std::span<const PolygonSide> b,
                                      double tolerance);
 

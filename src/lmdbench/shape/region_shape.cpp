@@ -13,7 +13,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Areas of a region's triangles and of its pieces differ by more than this part where triangles lie on each other.
+/// Triangles overlap where a region's triangles and pieces differ in area by more than this part.
 constexpr double AREA_ROUNDING = 1e-6;
 
 RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::int32_t region,
@@ -28,7 +28,7 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   };
   const auto triangles = regions.region_triangles[region];
 
-  // Each straight edge of the border once for each way that triangles run along it.
+  // Each straight edge of the border once for each direction in which triangles run along it.
   std::set<std::pair<std::int32_t, bool>> directed;
   std::vector<Box2> boxes;
   std::vector<std::int32_t> own_corners;
@@ -83,7 +83,7 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   return shape;
 }
 
-/// Whether a point is inside a convex polygon by more than `reach` of every side: true, or beyond one by more: false.
+/// True: inside a convex polygon by more than `reach` of every side; false: beyond one by more.
 std::optional<bool> is_clearly_in(const std::vector<Vec2>& polygon, const Vec2& x, double reach) {
   bool is_clear = true;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -119,7 +119,7 @@ std::optional<bool> RegionShape::clearly_holds(const Vec2& x, double reach) cons
 bool RegionShape::clearly_holds_segment(const Vec2& a, const Vec2& b, double reach) const {
   if (!clearly_holds(a, reach).value_or(false)) return false;
   if (pieces.size() == 1) return clearly_holds(b, reach).value_or(false);
-  // No side comes near: all of it is where its first end is.
+  // No side is near: all of it is where its first end is.
   bool is_clear = true;
   side_grid.for_each_near(a, b, reach, [&](std::int32_t) { is_clear = false; });
   return is_clear;

@@ -15,8 +15,8 @@
 
 namespace lmdbench {
 
-/// A flat region without its tessellation: a polygon, with holes where it has them, as convex pieces; and
-/// where its triangles lie. All in the plane's own frame.
+/// A flat region without its tessellation: a polygon, perhaps with holes, as convex pieces, and the
+/// places of its triangles. All in the plane's own frame.
 struct RegionShape {
   PlanarFrame frame{Vec3::Zero(), Vec3::UnitZ()};  ///< In the region's plane, seen against its
                                                    ///< normal; frame S.
@@ -24,22 +24,22 @@ struct RegionShape {
   std::vector<ConvexPolygon> pieces;               ///< Side by side; together they are the region.
   BoxGrid piece_grid;                              ///< Of the pieces' boxes.
   BoxGrid side_grid;                               ///< Of the sides' boxes.
-  std::vector<std::int32_t> corners;  ///< Vertices where straight edges of its border end, ascending.
-  std::vector<Vec2> hull;             ///< Convex hull of the corners, counter-clockwise.
-  BoxGrid triangle_grid;  ///< Of the triangles' boxes, in the order of FlatRegions::region_triangles.
-  /// Chains or corners lie inside it (a fin that stands on it, a slit), or parts of it lie on each other.
+  std::vector<std::int32_t> corners;               ///< Ends of its straight edges, ascending.
+  std::vector<Vec2> hull;                          ///< Of the corners, counter-clockwise.
+  BoxGrid triangle_grid;                           ///< Of the triangles' boxes, in their order.
+  /// It has chains or corners inside (of a fin on it, a slit), or parts of it overlap.
   bool has_features_inside = false;
 
-  /// Whether a point of the plane is inside by more than `reach`, away from every chain and corner: true, or outside by more: false.
-  /// Nothing where that takes a look at the triangles: near the border, and where pieces meet.
-  /// @param reach  at least what rounding does to the pieces, FLATNESS of the mesh's largest coordinate [m]
+  /// Whether a point of the plane is inside, away from every chain and corner, or outside, each by
+  /// more than `reach`. Nothing where only triangles tell: near the border and where pieces meet.
+  /// @param reach  at least the pieces' rounding, FLATNESS of the largest coordinate [m]
   std::optional<bool> clearly_holds(const Vec2& x, double reach) const;
-  /// Whether all points of a segment are inside by more than `reach`, where that is easily told.
+  /// Whether all points of a segment are clearly inside; false where that is not easily told.
   bool clearly_holds_segment(const Vec2& a, const Vec2& b, double reach) const;
 };
 
-/// Shapes of the regions of more than one triangle, each a pass over its triangles and a sweep over its
-/// border: n log n of them.
+/// Shapes of the regions of more than one triangle; each takes a pass over its triangles and a
+/// sweep over its border: n log n.
 struct RegionShapes {
   std::vector<RegionShape> shapes;
   std::vector<std::int32_t> shape_of_region;  ///< #R; -1 for a region of one triangle.

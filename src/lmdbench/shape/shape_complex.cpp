@@ -18,15 +18,15 @@ namespace lmdbench {
 
 namespace {
 
-/// Angles of a region at a corner add up to this less than 180 degrees at the most where its chains there run on in one
-/// line.
+/// Where a region's chains at a corner continue in one line, its angles there may add up to this
+/// less than 180 degrees.
 constexpr double ANGLE_ROUNDING = 1e-6;
 
-/// A mesh that deforms may grow by this factor before its triangles are looked at again for being regions by themselves.
+/// Growth of a mesh that deforms before its triangles are tested again for being regions alone.
 constexpr double ROOM_TO_GROW = 4.0;
-/// Tolerances within which nothing may begin to grow there: the growth itself asks for one.
+/// Tolerances within which no face may start to grow there; the growth itself uses one.
 constexpr double LONE_MARGIN = 2.0;
-/// Triangles that one task looks at.
+/// Triangles of one task.
 constexpr std::size_t FACES_A_LOOK = 4096;
 
 }  // namespace
@@ -91,10 +91,10 @@ void ShapeComplex::find_lone_triangles(const Surface& surface) {
   }
 }
 
-/// Whether a shape that is made anew would have the same features, their planes aside. The regions of several triangles are functions
-/// of the triangles that had a say in them (FlatRegions::decides_region) and of the mesh's extent; a triangle over whose edges
-/// no region can begin to grow, from either side, is one by itself and takes part in no chain of several edges and in no
-/// vertex inside a region, because it is not so low that its edges are in one line.
+/// Whether a shape made anew would have the same features, apart from planes. Regions of several
+/// triangles depend on the triangles of FlatRegions::decides_region and on the mesh's extent. A
+/// triangle over whose edges no region can start to grow, from either side, is one by itself: in no
+/// chain of several edges, no vertex inside a region, because its edges are not on a line.
 bool ShapeComplex::keeps_features(const Surface& surface, const SurfaceChange& change) {
   if (is_lone_.empty() || change.lost_area > 0 || change.regained_area) return false;
   const double extent = largest_coordinate(surface.mesh.vertices);
@@ -107,7 +107,7 @@ bool ShapeComplex::keeps_features(const Surface& surface, const SurfaceChange& c
         all_alone = false;
   });
   if (!all_alone) return false;
-  // Wings that are kept are those beside regions and chains of several faces and edges.
+  // Kept wings are those beside regions and chains of several faces and edges.
   const auto is_kept = [](const std::vector<std::int32_t>& rows, std::int32_t i) {
     return !rows.empty() && i >= 0 && rows[static_cast<std::size_t>(i)] >= 0;
   };
@@ -174,7 +174,7 @@ void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vert
     shortest = std::min(shortest, length);
     wings_.push_back(wing);
   }
-  // Regions of 180 degrees and more: without a wing inside, the corner of a notch would have a cone.
+  // Regions of 180 degrees and more: without a wing inside, a notch's corner would have a cone.
   std::vector<std::pair<std::int32_t, std::int32_t>> of_regions;  // region, triangle
   for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex])
     if (region_of(t) >= 0 && shapes.of_region(region_of(t)) != nullptr)
@@ -226,7 +226,7 @@ void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain
         wings_.push_back(across);
         continue;
       }
-      // Of the region's plane, not the triangle's, which a small triangle knows badly.
+      // Of the region's plane, because a small triangle's is inaccurate.
       const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
       Vec3 inwards = n.cross(along).normalized();
       if (inwards.dot(across) < 0.0) inwards = -inwards;

@@ -16,17 +16,17 @@
 
 namespace lmdbench {
 
-/// The features of a mesh's shape, which do not depend on how its planes are cut into triangles: *regions* (faces in
-/// one plane), *chains* (straight edges between the same regions) and *corners* (vertices inside neither). On a scan
-/// nearly every triangle is a region, every edge a chain and every vertex a corner.
+/// The features of a mesh's shape, whatever triangles its planes are cut into: *regions* (faces in
+/// one plane), *chains* (straight edges between the same regions) and *corners* (vertices inside
+/// neither). On a scan nearly all triangles are regions, edges chains, vertices corners.
 ///
-/// A feature is called by its *lead*: the lowest face of a region, the first edge of a chain, the vertex.
+/// A feature is named by its *lead*: a region's lowest face, a chain's first edge, the vertex.
 ///
-/// *Wings* are the vectors that span what lies round a feature: d lies in the feature's polar cone when no wing has a
-/// component along d (decision/DEFINITION.md). They are differences of vertices in the mesh's frame.
-/// - Of a corner: from it to the other end of each chain there; within regions of 180 degrees and more at the corner
-///   also along edges inside them; along the sides of triangles without area.
-/// - Of a chain: for each of its regions the vector square to the chain, into the region, as long as the region is deep.
+/// *Wings* are vectors that span the surface round a feature: d is in the feature's polar cone when
+/// no wing has a component along d (decision/DEFINITION.md). They are differences of vertices.
+/// - Of a corner: to the other end of each chain there; in regions of 180 degrees and more at the
+///   corner also along edges inside; along the sides of triangles without area.
+/// - Of a chain: square to it into each of its regions, as long as the region is deep.
 class ShapeComplex {
  public:
   FlatRegions regions;
@@ -36,11 +36,11 @@ class ShapeComplex {
 
   static ShapeComplex of(const Surface& surface);
 
-  /// Follows a surface whose vertices have moved: it is then what `of` makes of it, up to the numbers of regions. Where the triangles that
-  /// moved are regions by themselves and stay so, their planes are all that changes; else the shape is made anew. So it is in the first
-  /// step that moves anything, unless a step that moves nothing came before.
+  /// Follows a surface with moved vertices; the result is that of `of`, up to numbers of regions.
+  /// Where moved triangles are and stay regions by themselves, only planes change. Else it is made
+  /// anew, also in the first step that moves anything, unless a step without motion came before.
   void follow(const Surface& surface, const SurfaceChange& change);
-  /// How often `follow` made the shape anew: features may be others then.
+  /// How often `follow` made the shape anew, perhaps with other features.
   std::uint32_t times_made_anew() const { return times_made_anew_; }
 
   std::int32_t lead_of_region(std::int32_t region) const { return regions.region_triangles[region].front(); }
@@ -57,13 +57,13 @@ class ShapeComplex {
   bool is_corner(std::int32_t vertex) const {
     return !regions.vertex_is_inside[static_cast<std::size_t>(vertex)];
   }
-  /// Whether a feature of the mesh is the lead of one of the shape; triangles without area count as features.
+  /// Whether it is the lead of a feature of the shape; triangles without area count as features.
   bool is_lead(const FeatureId& feature) const;
   /// Whether it is the lead of several faces or edges.
   bool is_lead_of_several(const FeatureId& feature) const;
   /// Whether a chain is one edge between regions of one triangle each.
   bool is_plain_chain(const Surface& surface, std::int32_t chain) const;
-  /// Appends the vertices that bound the feature of a lead: of a region its corners, of a chain its ends.
+  /// Appends the vertices that bound a lead's feature: a region's corners, a chain's ends.
   void append_corners(const Surface& surface, const FeatureId& lead,
                       std::vector<std::int32_t>& corners) const;
 
@@ -106,7 +106,7 @@ class ShapeComplex {
                                                : for_each_chain_wing(surface, feature.index, visit);
   }
 
-  /// Calls visit(face) once for every face of a region whose box in the region's plane (RegionShape::frame) comes within
+  /// Calls visit(face) once for every face of a region whose box (RegionShape::frame) is within
   /// `reach` of a box, until it returns false. @pre the region has a shape
   /// @return whether visit never returned false
   template <class Visit>
@@ -115,12 +115,12 @@ class ShapeComplex {
     return shapes.of_region(region)->triangle_grid.for_each_near(
         box, reach, [&](std::int32_t k) { return visit(faces[static_cast<std::size_t>(k)]); });
   }
-  /// The face of a region that names what lies at a point of its plane: the first in the mesh's order that holds the point
-  /// (NAMING_TOLERANCE), or the first of the region where none does.
+  /// The face of a region that names a point of its plane: the first in the mesh's order that holds
+  /// the point (NAMING_TOLERANCE), or the first of the region where none does.
   std::int32_t face_at(const Surface& surface, std::int32_t region, const Vec3& p_S) const;
 
-  /// Appends what a feature of the shape lies on: the regions that hold it, by index, and triangles without area, which
-  /// are in no region, as -1 - index.
+  /// Appends the carriers of a shape feature: the regions that hold it, by index, and triangles
+  /// without area, which are in no region, as -1 - index.
   /// @param feature  index counts regions, chains or vertices
   void append_carriers(const Surface& surface, const FeatureId& feature,
                        std::vector<std::int32_t>& carriers) const;
@@ -143,18 +143,18 @@ class ShapeComplex {
   void append_corner_wings(const Surface& surface, std::int32_t vertex);
   void append_chain_wings(const Surface& surface, std::int32_t chain);
 
-  // Only of features on regions or chains of several faces or edges; others are asked of the mesh.
+  // Only of features on regions or chains of several faces or edges; the mesh gives the others.
   std::vector<std::int32_t> corner_row_;  ///< #V, or empty; -1: none kept.
   std::vector<std::int32_t> chain_row_;   ///< #chains, or empty; -1: none kept.
   std::vector<std::int32_t> wing_starts_{0};
   std::vector<Vec3> wings_;
 
   std::uint32_t times_made_anew_ = 0;
-  // Where the mesh deforms.
-  /// #T; a region by itself as long as it and its neighbours stay where they are, ...
+  // For meshes that deform. #T; a region by itself while it and its neighbours stay as they are,
+  // ...
   std::vector<bool> is_lone_;
   double lone_up_to_ = 0.0;     ///< ... at any extent up to this [m].
-  bool some_not_lone_ = false;  ///< Some triangle with area is not.
+  bool some_not_lone_ = false;  ///< Some triangle with area is no such region.
 };
 
 }  // namespace lmdbench

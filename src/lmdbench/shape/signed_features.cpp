@@ -13,11 +13,11 @@ namespace lmdbench {
 
 namespace {
 
-/// Sectors wider than 180 degrees less this are halved: below, the cone of their two chains is the sector.
+/// Sectors wider than 180 degrees less this are halved; narrower ones are the cone of their chains.
 constexpr double WIDE_SECTOR_MARGIN = 1e-6;
-/// Least component [sine] of every normal along a corner's outward direction; a corner that has less is FOLDED.
+/// Least component [sine] of all normals along a corner's outward direction; else it is FOLDED.
 constexpr double LEAST_RISE = 1e-9;
-/// Steps that look for a direction along which all normals rise.
+/// Steps of the search for a direction along which all normals rise.
 constexpr int MOST_STEPS = 1000;
 
 /// A triangle at a vertex: the next corner and the one after, counter-clockwise.
@@ -57,7 +57,7 @@ std::int32_t edge_between(const Surface& surface, std::int32_t triangle, std::in
   return -1;
 }
 
-/// A unit vector along which all normals rise, or zero: a perceptron, which finds one where the margin is not tiny.
+/// Unit vector along which all normals rise, or zero: a perceptron, which needs a margin.
 Vec3 direction_of_all(const std::vector<Vec3>& normals, Vec3 direction) {
   for (int step = 0; step < MOST_STEPS; ++step) {
     const Vec3* lowest = nullptr;
@@ -73,7 +73,7 @@ Vec3 direction_of_all(const std::vector<Vec3>& normals, Vec3 direction) {
   return Vec3::Zero();
 }
 
-/// Area of a triangle on the unit sphere, positive where its corners are counter-clockwise (Van Oosterom and Strackee 1983).
+/// Signed area of a counter-clockwise triangle on the unit sphere (Van Oosterom and Strackee 1983).
 double signed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
@@ -119,7 +119,7 @@ void SignedFeatures::add_chain(const Surface& surface, const ShapeComplex& shape
     if (shape.region_of(t) < 0) return;
     const auto& corners_of = surface.mesh.triangles[static_cast<std::size_t>(t)];
     const auto& edge_ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
-    // A triangle lies to the left of its sides.
+    // A triangle is to the left of its sides.
     for (std::size_t c = 0; c < 3; ++c) {
       const std::int32_t from = corners_of[c], to = corners_of[(c + 1) % 3];
       if ((from != edge_ends[0] || to != edge_ends[1]) && (from != edge_ends[1] || to != edge_ends[0]))
@@ -191,8 +191,8 @@ void SignedFeatures::add_corner(const Surface& surface, const ShapeComplex& shap
   corner.outward = direction_of_all(normals, surface.pseudo_normal({FeatureKind::VERTEX, vertex}));
   if (corner.outward.isZero(0.0)) {
     corner.kind = CornerKind::FOLDED;
-    // The fan of triangles from `outward` to the polygon of normals covers the sphere with the winding numbers, less their
-    // value opposite to it: area by area, they add up to the angle that the corner lacks (Gauss and Bonnet).
+    // The fan from `outward` to the polygon of normals covers the sphere with the winding numbers,
+    // less their value at the opposite: its area is the angle defect (Gauss and Bonnet).
     corner.outward = surface.pseudo_normal({FeatureKind::VERTEX, vertex});
     double area = 0.0;
     for (std::size_t k = 0; k < normals.size(); ++k)

@@ -12,15 +12,15 @@
 
 namespace lmdbench {
 
-/// What the index of a feature in a direction is made of (decision/DEFINITION.md, "Critical pairs"), for a mesh that bounds a solid.
+/// For a solid: the index i(f, u) (decision/DEFINITION.md, "Critical pairs") is the multiplicity
+/// with which feature f has the outward normal u. A region: +1 for its normal. A chain: for a
+/// direction between its regions' normals +1 if convex, -1 if reflex. A corner: the winding number
+/// of the closed polygon of its regions' normals round u (Banchoff 1967; the normal cycle of
+/// Wintgen and Zaehle). If its normals fit into a half space that is, on the outer side, 1 less the
+/// chains not rising along u plus the sectors between such: signs alone, which neighbouring
+/// features share.
 ///
-/// The index i(f, u) is the multiplicity with which the feature f has the outward normal u: +1 for a region and its normal; for a
-/// chain and a direction between the normals of its regions +1 where it is convex and -1 where it is reflex; for a corner the
-/// winding number of the closed polygon of its regions' normals round u (Banchoff 1967; the normal cycle of Wintgen and Zaehle).
-/// For a corner whose normals fit into a half space that number is, on the outer side, 1 less the chains that do not rise along u
-/// plus the sectors between chains that do not: it depends on signs alone, which neighbouring features share.
-///
-/// Features on a border, with more than two triangles at an edge, where sheets meet or with triangles without area have none.
+/// No index: on a border, at edges of over two triangles, where sheets meet, without area.
 class SignedFeatures {
  public:
   /// One side of a chain: sense * normal x (second end - first end) points into the region.
@@ -41,7 +41,7 @@ class SignedFeatures {
     CornerKind kind = CornerKind::NONE;
     std::uint32_t first = 0, count = 0;  ///< Into `others`, `regions` and `inner`.
     Vec3 outward = Vec3::Zero();         ///< Unit, mesh frame; FOLDED: any direction.
-    int away = 0;                        ///< FOLDED: the index in the direction opposite to `outward`.
+    int away = 0;                        ///< FOLDED: the index in direction -`outward`.
   };
 
   std::vector<Chain> chains;    ///< #chains
@@ -49,7 +49,7 @@ class SignedFeatures {
   /// Chains of a corner, counter-clockwise seen from outside, by their other ends.
   std::vector<std::int32_t> others;
   std::vector<std::int32_t> regions;  ///< Region of the sector from each chain to the next.
-  std::vector<Vec3> inner;  ///< For a sector of 180 degrees or more a direction that halves it, else zero.
+  std::vector<Vec3> inner;            ///< Halves a sector of 180 degrees or more; else zero.
 
   static SignedFeatures of(const Surface& surface, const ShapeComplex& shape);
   template <class Body>

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double NEVER = -std::numeric_limits<double>::infinity();
 
-/// Newton's steps at a double crossing halve the way that is left: this many leave nothing of it.
+/// Newton's steps at a double crossing halve the remaining distance: so many leave nothing.
 constexpr int MAXIMUM_STEPS = 100;
 
-/// Part of the sizes by which rounding may put a sphere's crossing too near.
+/// Relative rounding error by which a sphere's crossing may be too near.
 constexpr double ROUNDING = 1e-12;
 
 struct MeetingPair {
@@ -52,7 +52,7 @@ class ApproachSearch {
       const double start = candidate(0, 0).upper_bound;
       if (start > NEVER) try_pair(begin.triangle_moving, begin.triangle_fixed, start);
     }
-    // Depth first, the child pair that may come first on top, as in `nearest_pair`.
+    // Depth first, the child pair with the earlier bound on top, as in `nearest_pair`.
     std::vector<MeetingPair> stack{candidate(0, 0)};
     while (!stack.empty()) {
       const MeetingPair pair = stack.back();
@@ -90,7 +90,7 @@ class ApproachSearch {
     return {std::sqrt(inside) - along + slack, index_a, index_b};
   }
 
-  /// Whether the slabs along an axis are farther apart than the gap at the best reach, and so beyond it, where they move apart.
+  /// Whether slabs on an axis, at the best reach, are beyond the gap and separate from there on.
   bool is_beyond(const Vec3& axis, const Triangle& a, const Triangle& b) const {
     const Vec3 way = best_.reach * direction_;
     const double extent = extent_ + std::abs(best_.reach);
@@ -98,7 +98,7 @@ class ApproachSearch {
     return (axis.dot(direction_) >= 0.0 ? gaps.a_above_b : gaps.b_above_a) > enough_;
   }
 
-  /// @param s  where the pair is farther apart than the gap, or at it, as it is everywhere beyond
+  /// @param s  there, and everywhere beyond, the pair's distance is at least the gap
   void try_pair(std::int32_t triangle_moving, std::int32_t triangle_fixed, double s) {
     const Triangle a = transform_.triangle(moving_.mesh.triangle(triangle_moving));
     const Triangle b = fixed_.mesh.triangle(triangle_fixed);
@@ -116,7 +116,7 @@ class ApproachSearch {
         return;
       }
       const double slope = (pair.point_a - pair.point_b).dot(direction_) / distance;
-      if (!(slope > 0.0)) return;  // convex: from here on it only gets farther
+      if (!(slope > 0.0)) return;  // convex: only farther from here
       s -= (distance - gap_) / slope;
     }
   }
@@ -129,7 +129,7 @@ class ApproachSearch {
   Vec3 direction_;
   double gap_;
   double enough_;
-  double extent_ = 0.0;  ///< Bound of the distances of corners at X_WM [m].
+  double extent_ = 0.0;  ///< Bound of corner distances at X_WM [m].
   FirstApproach best_;
 };
 

@@ -15,7 +15,7 @@
 namespace lmdbench {
 namespace {
 
-/// Triangles whose normals the cone of a leaf covers, repeated where they are found twice.
+/// Triangles whose normals the cone of a leaf covers; some may be visited twice.
 template <class Visitor>
 void visit_covered(const Surface& surface, std::int32_t triangle, LeafCones leaf_cones, Visitor&& visit) {
   const auto t = static_cast<std::size_t>(triangle);
@@ -28,10 +28,11 @@ void visit_covered(const Surface& surface, std::int32_t triangle, LeafCones leaf
       for (const std::int32_t neighbour : surface.adjacency.vertex_triangles[corner]) visit(neighbour);
 }
 
-/// Cone of a leaf. Decision E1, ours: by default it covers the normals of all faces round the triangle's three corners,
-/// because the outward direction of an LMD on an edge or at a vertex lies between the normals of the faces
-/// that meet there. That hull holds the polar cone of every feature of a closed surface; on a boundary, at
-/// non-manifold edges and next to triangles without area it does not, and the cone is all directions.
+/// Cone of a leaf. Decision E1, ours: by default it covers the normals of all faces round the
+/// triangle's three corners, because the outward direction of an LMD on an edge or at a vertex lies
+/// between the normals of its faces. That hull holds the polar cone of every feature of a closed
+/// surface. On a boundary, at non-manifold edges and next to triangles without area it does not:
+/// all directions.
 Cone leaf_cone(const Surface& surface, std::int32_t triangle, LeafCones leaf_cones,
                std::vector<Vec3>& normals) {
   for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(triangle)]) {
@@ -47,8 +48,8 @@ Cone leaf_cone(const Surface& surface, std::int32_t triangle, LeafCones leaf_con
   return degenerate ? Cone{} : convex_cone_of_directions(normals);
 }
 
-/// Cone of an inner node: the axis is the average of the leaf axes below it (paper, section 3.1), or the axis
-/// of the children's merged cones where that gives a smaller cone.
+/// Cone of an inner node: the axis is the average of the leaf axes below it (paper, section 3.1),
+/// or that of the children's merged cones where this gives a smaller cone.
 Cone node_cone(const Cone& merged_children, std::span<const std::int32_t> triangles,
                std::span<const Cone> leaf_cones, std::span<const double> leaf_half_angles) {
   Vec3 sum = Vec3::Zero();
@@ -57,7 +58,7 @@ Cone node_cone(const Cone& merged_children, std::span<const std::int32_t> triang
     if (cone.is_all_directions()) return cone;
     sum += cone.axis;
   }
-  // Opposite normals cancel to noise; any axis would do, and the merged cone is as good.
+  // Opposite normals cancel to noise; the merged cone is as good as any axis.
   if (!(sum.norm() > 1e-6 * static_cast<double>(triangles.size()))) return merged_children;
   const Vec3 axis = sum.normalized();
   double half_angle = 0.0;
@@ -66,8 +67,7 @@ Cone node_cone(const Cone& merged_children, std::span<const std::int32_t> triang
     half_angle = std::max(half_angle, std::acos(cosine) + leaf_half_angles[static_cast<std::size_t>(t)]);
   }
   if (half_angle >= merged_children.half_angle()) return merged_children;
-  // acos loses half the digits near 0; merging with a degenerate cone of the same
-  // axis would not widen enough.
+  // acos loses half the digits near 0; merging with a degenerate cone would not widen enough.
   constexpr double ROUNDING = 4e-8;
   half_angle += ROUNDING;
   return {axis, std::cos(half_angle), std::sin(half_angle)};
@@ -126,7 +126,7 @@ class Builder {
     return cone;
   }
 
-  /// Leaves the corners of the triangles in points_, each vertex once: triangles share theirs with about five others.
+  /// Collects the triangles' corners in points_, once each: triangles share theirs with some five.
   void gather_corners(std::span<const std::int32_t> triangles, std::int32_t node) {
     points_.clear();
     for (const std::int32_t t : triangles)
@@ -138,8 +138,8 @@ class Builder {
       }
   }
 
-  /// Sorts the triangles into two halves along the longest side of their centroids' box and returns the size
-  /// of the first. Ties are broken by index, so the hierarchy depends on the mesh alone.
+  /// Sorts the triangles into two halves along the longest side of their centroids' box and returns
+  /// the size of the first. Ties are broken by index: the hierarchy depends on the mesh alone.
   std::size_t split(std::span<std::int32_t> triangles) {
     Eigen::AlignedBox3d box;
     for (const std::int32_t t : triangles) box.extend(centroids_[static_cast<std::size_t>(t)]);
@@ -162,7 +162,7 @@ class Builder {
   std::vector<Cone> leaf_cones_;
   std::vector<double> leaf_half_angles_;
   std::vector<Vec3> points_;
-  std::vector<std::int32_t> gathered_for_;  ///< Of each vertex, the node that gathered it last.
+  std::vector<std::int32_t> gathered_for_;  ///< Last node that gathered each vertex.
 };
 
 }  // namespace

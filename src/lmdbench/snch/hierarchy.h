@@ -36,9 +36,9 @@ struct Hierarchy {
 
 /// Which faces' normals the cone of a leaf covers (decision E1).
 enum class LeafCones : std::uint8_t {
-  OWN,              ///< The triangle's own: what the paper's words say at their narrowest.
-  EDGE_NEIGHBOURS,  ///< And of those across its edges.
-  ONE_RING          ///< Of all round its three corners (default): keeps every LMD.
+  OWN,              ///< The triangle's own: the narrowest reading of the paper.
+  EDGE_NEIGHBOURS,  ///< Also of those across its edges.
+  ONE_RING          ///< Also of all round its corners (default): keeps every LMD.
 };
 
 /// As `Hierarchy::of`, whose leaf cones are ONE_RING.

@@ -15,25 +15,25 @@ namespace lmdbench {
 
 /// Nearest triangle pair of two meshes.
 struct NearestPair {
-  double distance = std::numeric_limits<double>::quiet_NaN();  ///< metres; 0 when the meshes intersect
+  double distance = std::numeric_limits<double>::quiet_NaN();  ///< metres; 0: crossing
   std::int32_t triangle_moving = -1;
   std::int32_t triangle_fixed = -1;
   TrianglePairDistance pair;  ///< in world coordinates; a is the moving triangle
 };
 
-/// Exact minimum distance by branch and bound over the spheres of both hierarchies (cones are not used).
-/// @param upper_bound distances above this are not looked for; the result then has triangle_moving == -1
+/// Exact minimum distance by branch and bound over the spheres of both hierarchies, without cones.
+/// @param upper_bound largest distance sought; if all are above, triangle_moving == -1
 NearestPair nearest_pair(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
                          const Hierarchy& fixed_hierarchy, const Pose& X_WM,
                          double upper_bound = std::numeric_limits<double>::infinity());
 
-/// Whether the meshes are within `distance` [m] of each other: stops at the first triangle pair that is.
+/// Whether the meshes are within `distance` [m]: stops at the first such triangle pair.
 bool within_distance(const Surface& moving, const Hierarchy& moving_hierarchy, const Surface& fixed,
                      const Hierarchy& fixed_hierarchy, const Pose& X_WM, double distance);
 
-/// Exact nearest pairs of two meshes along a path. Each search begins with the last one's triangles at the new pose
-/// as its bound, which changes nothing but the time: the least distance is the same bits as from scratch, of pairs
-/// at equal distance another one may be named. Remembers its last pair, so use it from one thread.
+/// Exact nearest pairs of two meshes along a path. The last search's triangles at the new pose
+/// bound the next one, for speed alone: the distance has the same bits as from scratch; of equally
+/// near pairs it may name another. Remembers its last pair, so use it from one thread.
 class NearestTracker {
  public:
   /// The meshes and hierarchies must outlive this.
@@ -59,7 +59,7 @@ class NearestTracker {
   std::int32_t last_fixed_ = -1;
 };
 
-/// The place of a mesh that is nearest to a point.
+/// The point of a mesh nearest to a given point.
 struct NearestPoint {
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< metres
   std::int32_t triangle = -1;
@@ -68,7 +68,7 @@ struct NearestPoint {
 
 /// Exact, by branch and bound over the spheres of the hierarchy.
 /// @param p_M          in the mesh's frame
-/// @param upper_bound  places beyond it are not looked for; the result then has triangle == -1
+/// @param upper_bound  largest distance sought; if all are above, triangle == -1
 NearestPoint nearest_point(const Surface& surface, const Hierarchy& hierarchy, const Vec3& p_M,
                            double upper_bound = std::numeric_limits<double>::infinity());
 

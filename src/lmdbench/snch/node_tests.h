@@ -9,11 +9,11 @@
 
 #include <cmath>
 
-/// Node tests of the global search (paper, sections 3.2.1 and 4.1). Every test answers "may this node pair
-/// hold an LMD within the cutoff?" from bounds alone and is conservative: a node's cone holds every
-/// outward direction of an LMD on the surface below it, its sphere every point. Angles are compared
-/// through cosines, cos(a + b) = cos a cos b - sin a sin b, valid while a + b < pi; a sum of pi or more
-/// covers every direction and passes.
+/// Node tests of the global search (paper, sections 3.2.1 and 4.1). Every test answers "may this
+/// node pair hold an LMD within the cutoff?" from bounds alone and is conservative: a node's cone
+/// holds every outward direction of an LMD on the surface below it, its sphere every point. Angles
+/// are compared by cosines, cos(a + b) = cos a cos b - sin a sin b, valid while a + b < pi; a sum
+/// of pi or more covers every direction and passes.
 namespace lmdbench {
 
 /// A node of the moving hierarchy brought to the world frame.
@@ -33,7 +33,7 @@ struct WorldNode {
         cone_sine(node.cone_sine) {}
 };
 
-/// What the tests of one pair share.
+/// Shared by all tests of one pair.
 struct NodePair {
   Vec3 centres;             ///< S_B - S_A
   double squared_distance;  ///< |S_B - S_A|^2
@@ -58,9 +58,9 @@ inline bool rejected_by_collinearity(const WorldNode& a, const HierarchyNode& b)
   return -a.cone_axis.dot(b.cone_axis) < cosine_of_sum;
 }
 
-/// The cone of all directions from one sphere to the other, half angle sigma = arcsin(radii / |S_B - S_A|),
-/// against a normal cone: true when no direction is in both. Decision E2: the printed inequality of G3.a/b is
-/// this rejection condition. All lengths are kept multiplied by |S_B - S_A|, which saves the division.
+/// The cone of all directions from one sphere to the other, half angle sigma = arcsin(radii / |S|),
+/// S = S_B - S_A, against a normal cone: true when no direction is in both. Decision E2: the
+/// printed inequality of G3.a/b is this rejection. Lengths are multiplied by |S|: no division.
 /// @param along      (S_B - S_A) . C for the moving node, (S_A - S_B) . C for the fixed one
 /// @param tangent    sqrt(|S_B - S_A|^2 - radii^2) = |S_B - S_A| cos(sigma)
 inline bool direction_cone_misses(double along, double tangent, double radii, double cone_cosine,
@@ -70,16 +70,16 @@ inline bool direction_cone_misses(double along, double tangent, double radii, do
   return along < tangent * cone_cosine - radii * cone_sine;
 }
 
-/// How G3 reads a normal cone against the spheres.
+/// How G3 compares a normal cone with the spheres.
 enum class DirectionTest {
   RAY,      ///< G3.a and G3.b (section 4.1) as rejection conditions.
-  LINE,     ///< Decision E4, ours: the original's dual solution line cone read as a two-sided line. A pair is
-            ///< rejected when the line through the spheres leaves a cone in both of its senses.
-  LITERAL,  ///< Ablation of decision E2: "pass only when satisfying" taken literally, which keeps the pairs
-            ///< that G3 should reject.
-  CLAMPED  ///< Ablation of decision E3: where the spheres overlap, the arcsin of more than 1 is taken for the
-           ///< right angle that it reaches at touch. Lines between overlapping spheres have every direction,
-           ///< so LMDs are lost.
+  LINE,     ///< Decision E4, ours: the original's dual solution line cone as a two-sided line;
+            ///< rejects a pair if the line through the spheres leaves a cone in both senses.
+  LITERAL,  ///< Ablation of decision E2: "pass only when satisfying" taken literally, which keeps
+            ///< the pairs that G3 should reject.
+  CLAMPED   ///< Ablation of decision E3: for overlapping spheres the arcsin of more than 1 becomes
+            ///< a right angle, its value at touch. Lines between such spheres have every
+            ///< direction, so LMDs are lost.
 };
 
 /// Decision E3: overlapping spheres have no sigma, the pair passes.

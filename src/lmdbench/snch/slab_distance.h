@@ -8,16 +8,16 @@
 
 namespace lmdbench {
 
-/// Two triangles seen along an axis: lower bounds of their distance, below 0 where they overlap [m].
+/// Lower bounds of the distance of two triangles along an axis, below 0 where they overlap [m].
 struct SlabGaps {
-  double a_above_b;  ///< From the end of b to the beginning of a.
+  double a_above_b;  ///< From the end of b to the start of a.
   double b_above_a;
 };
 
-/// What a look along the normal of either triangle tells before the exact distance is worth its price: spheres of long thin triangles, as CAD
-/// programs write them, reach each other though the triangles' planes are far apart.
-/// @param axis   unit; zero, as the normal of a triangle without area, tells nothing
-/// @param extent bound of the distance of any two of their corners: what rounding is relative to [m]
+/// Bounds along either triangle's normal, before the costly exact distance: spheres of long thin
+/// triangles (CAD) reach each other though the triangles' planes are far apart.
+/// @param axis   unit; zero, as the normal of a triangle without area, gives no bound
+/// @param extent bound of the distance of any two of their corners, for rounding [m]
 inline SlabGaps slab_gaps(const Vec3& axis, const Triangle& a, const Triangle& b, double extent) {
   constexpr double ROUNDING = 1e-14;
   const auto along = [&](const Vec3& corner) { return axis.dot(corner - b[0]); };

@@ -12,7 +12,7 @@
 
 namespace lmdbench {
 
-/// What a traversal did; every rejection is counted under the first test that made it.
+/// Work of a traversal; each rejection is counted for the first test that rejects.
 struct TraversalCounters {
   std::uint64_t node_pairs = 0;
   std::uint64_t rejected_g1 = 0;
@@ -35,7 +35,7 @@ struct TraversalCounters {
 /// Keeps its stack between searches.
 class DualTraversal {
  public:
-  /// Where a traversal can go on: a pair that passed.
+  /// Where a traversal can continue: a pair that passed.
   struct Place {
     WorldNode world_a;
     std::int32_t index_a;
@@ -55,8 +55,8 @@ class DualTraversal {
     return counters;
   }
 
-  /// The first levels of `run`: where it goes on from there, in its order, at least `wanted` places if it has so many. So
-  /// several threads can share a traversal: `run_below` for each place visits together what `run` visits, in its order.
+  /// The first levels of `run`: the places where it continues, in its order, at least `wanted` if
+  /// there are so many. For threads: `run_below` of all places together visits what `run` visits.
   template <DirectionTest TEST>
   TraversalCounters split(const Hierarchy& moving, const Hierarchy& fixed, const RigidTransform& X_WM,
                           double cutoff, std::size_t wanted, std::vector<Place>& places) {
@@ -68,7 +68,7 @@ class DualTraversal {
       return moving.nodes[static_cast<std::size_t>(place.index_a)].is_leaf() &&
              fixed.nodes[static_cast<std::size_t>(place.index_b)].is_leaf();
     };
-    // A leaf pair is visited as soon as it is found, other pairs from the last one back.
+    // A leaf pair is visited when found, other pairs from the last to the first.
     std::vector<Place> next, inner;
     const auto take = [&](const Place& place) {
       const auto leaves = [&](std::int32_t, std::int32_t) {};
@@ -98,7 +98,7 @@ class DualTraversal {
     return counters;
   }
 
-  /// What `run` does below one of `split`'s places.
+  /// The part of `run` below one of `split`'s places.
   template <DirectionTest TEST, class LeafVisitor>
   TraversalCounters run_below(const Place& place, const Hierarchy& moving, const Hierarchy& fixed,
                               const RigidTransform& X_WM, double cutoff, LeafVisitor&& visit_leaves) {
@@ -122,7 +122,7 @@ class DualTraversal {
     double cutoff;
   };
 
-  /// Tests a pair: rejected, visited, or to be descended into. Inlined, or a search makes 2 % more instructions.
+  /// Tests a pair: rejected, visited, or kept for descent. Inlined: a call costs a search 2 %.
   template <DirectionTest TEST, class LeafVisitor>
   [[gnu::always_inline]] static inline void offer(const Hierarchies& of, const Place& place,
                                                   TraversalCounters& counters, LeafVisitor&& visit_leaves,

@@ -95,7 +95,7 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
   run.amplitude_m = std::sqrt(spread / static_cast<double>(swing.position_W.size()));
   run.frequency_hz = judge(swing).frequency_hz;
   run.force_mean_n = mean(force);
-  // The filter runs over the whole force, or where it starts would be a step.
+  // The filter runs over the whole force: a later start would be a step.
   std::vector<Vec3> all;
   for (const FrameRecord& frame : record.frames) all.push_back(frame.force);
   const std::vector<Vec3> high = above_30_hz(all, 1.0 / rate);

@@ -18,25 +18,25 @@
 namespace lmdbench {
 namespace {
 
-/// Growth that stands for a stiffness that the device cannot render: any positive number.
+/// Stands for a stiffness that the device cannot render: any positive number.
 constexpr double CLIPPED_GROWTH = 1.0;
-/// Growth that stands for a contact too soft to carry the push: the critical stiffness lies above.
+/// Stands for a contact too soft to carry the push: the critical stiffness lies above.
 constexpr double SINKING_GROWTH = -1.0;
-/// Growth that stands for a clean swing that neither grows nor decays, as all within the encoders' counts are: of exactly 0 a
-/// root finder would think that it is the boundary.
+/// Stands for a clean swing that neither grows nor decays, as all within the encoders' counts: a
+/// root finder would take exactly 0 for the boundary.
 constexpr double CALM_GROWTH = -1.0;
-/// A push P leaves a linear contact P / K deep: a tap of FRICTION_TAP_SHARE of that beats STICTION_BANDS from this many times the
-/// friction on, whatever the stiffness.
+/// A push P moves a linear contact by P / K: from this multiple of the friction on, a tap of
+/// FRICTION_TAP_SHARE of that exceeds STICTION_BANDS at any stiffness.
 constexpr double PUSH_PER_FRICTION = STICTION_BANDS / FRICTION_TAP_SHARE;
 
-/// Thrown when a search has cost what it may.
+/// Thrown when the budget of a search is spent.
 class BudgetSpent {};
 
-/// What a trial says of a stiffness.
+/// Result of a trial.
 enum class Verdict : std::uint8_t {
   CLEAN,
   UNCLEAN,
-  STUCK,   ///< Friction holds it, or no encoder sees it: nothing shakes, and nothing is shown.
+  STUCK,   ///< Held by friction or unseen by encoders: shows nothing.
   SINKING  ///< Too soft to carry the push.
 };
 
@@ -79,7 +79,7 @@ class Search {
     } else if (has_friction(experiment_.loop)) {
       search_with_friction(scale, given, row);
     } else if (row.exact_n_per_m == 0.0 && !counts()) {
-      // Without damping, friction and counts every stiffness diverges, the less of it the more slowly: nothing to search for.
+      // Nothing to search for: without damping, friction and counts every stiffness diverges.
       row.clean_until = "never";
     } else {
       const bool known = std::isfinite(row.exact_n_per_m) && row.exact_n_per_m > 0.0;
@@ -93,7 +93,7 @@ class Search {
     double high = low;
     double growth_high = growth_low;
     if (growth_low <= 0.0) growth_high = growth(high = guess * (1.0 + FIRST_BRACKET));
-    // Scales of F_max bracket the growth's change of sign.
+    // Scales of F_max that bracket the growth's change of sign.
     for (int i = 0; i < MOST_BRACKETINGS && growth_low > 0.0; ++i) {
       high = std::exchange(low, low / BRACKET_FACTOR);
       growth_high = std::exchange(growth_low, growth(low));
@@ -133,12 +133,12 @@ class Search {
     } else if (at_low == Verdict::CLEAN) {
       row.clean_until = broken_by_;
     } else {
-      best_ = 0.0;  // what is below the band says nothing of what is above it
+      best_ = 0.0;  // below the band proves nothing above it
       row.clean_until = at_low == Verdict::STUCK ? "stuck" : "never";
     }
   }
 
-  /// Whether the encoders count, which holds up what nothing damps.
+  /// Whether the encoders count, which can hold a swing that nothing damps.
   bool counts() const {
     const LoopChoice& loop = experiment_.loop;
     return loop.resolution_m > 0.0 || (loop.rotation && loop.rotation->resolution_rad > 0.0);
@@ -160,7 +160,7 @@ class Search {
     });
   }
 
-  /// What a trial says, and what is remembered of it.
+  /// Judges a trial and remembers its result.
   Verdict judge_trial(double scale, const StabilityTrial& trial) {
     if (!trial.carried) return Verdict::SINKING;
     if (trial.stuck || trial.within_counts) return Verdict::STUCK;
@@ -182,7 +182,7 @@ class Search {
 
   Verdict verdict(double scale) { return judge_trial(scale, try_scale(scale)); }
 
-  /// Positive where the contact under that scale of F_max is not clean.
+  /// Positive where the contact is not clean with F_max scaled so.
   double growth(double scale) {
     const StabilityTrial trial = try_scale(scale);
     const Verdict said = judge_trial(scale, trial);
@@ -208,7 +208,7 @@ class Search {
   std::int64_t trials_ = 0;
   double best_ = 0.0;   ///< Largest clean stiffness.
   double tap_ = UNSET;  ///< Of the trial that found it.
-  double worst_ = 0.0;  ///< Smallest one that is not; 0: none yet.
+  double worst_ = 0.0;  ///< Smallest unclean one; 0: none yet.
   std::string broken_by_;
 };
 

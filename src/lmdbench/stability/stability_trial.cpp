@@ -18,38 +18,38 @@
 namespace lmdbench {
 namespace {
 
-constexpr std::int64_t BLOCK_FRAMES = 256;  ///< Between two looks whether the trial is over.
+constexpr std::int64_t BLOCK_FRAMES = 256;  ///< Between checks for the end.
 constexpr int CYCLES = SKIPPED_CYCLES + 2 * WINDOW_CYCLES;
 
-constexpr int REST_STEPS = 64;  ///< A cutoff is searched in so many steps for the pose that carries the push.
+constexpr int REST_STEPS = 64;  ///< Steps over a cutoff to find the pose under the push.
 constexpr int REST_BITS = 30;   ///< Precision of that pose.
 
-/// Growth that stands for a swing that died down or escaped: ten times the amplitude a window.
+/// Stands for a swing that died down or escaped: ten times the amplitude a window.
 constexpr double DECIDED_GROWTH = std::numbers::ln10;
 
-/// The contact at rest, and the tap that fits it.
+/// The contact at rest, and the tap for it.
 struct Rest {
-  bool friction = false;  ///< The rules of friction hold, ...
-  bool counts = false;    ///< ... or the encoders count: it may come to rest beside its place.
+  bool friction = false;  ///< The rules of friction apply, ...
+  bool counts = false;    ///< ... or encoders count: it may rest elsewhere.
   Pose pose;
   RenderedForce rendered;
   Vec3 lever_W = Vec3::Zero();     ///< From the device's point to the watched one.
-  double natural_frequency = 0.0;  ///< [rad/s] of device and rigid hand on the contact's stiffness.
-  double mass_share = 1.0;     ///< Mass that is felt at the watched point, over that of the translation, ...
-  double inertia_ratio = 0.0;  ///< ... and over the inertia of the turn [1/m^2].
-  double tap_m = 0.0;          ///< How far the tap swings them on that stiffness alone.
-  double range_m = 0.0;        ///< From rest to where the contact ends or saturates.
+  double natural_frequency = 0.0;  ///< [rad/s] of device and rigid hand on that stiffness.
+  double mass_share = 1.0;         ///< Felt mass at the watched point over the translation's, ...
+  double inertia_ratio = 0.0;      ///< ... and over the inertia of the turn [1/m^2].
+  double tap_m = 0.0;              ///< Swing of the tap on that stiffness alone.
+  double range_m = 0.0;            ///< From rest to the contact's end or saturation.
 };
 
-/// What a trial's pose source and its owner share.
+/// Shared by a trial's pose source and its owner.
 struct TrialState {
   Swing swing;
-  std::optional<double> decided;  ///< Growth, where no measurement is needed.
+  std::optional<double> decided;  ///< Growth, where it needs no measurement.
   bool limit_cycle = false;
   bool over = false;
 };
 
-/// Holds the device, lets it go with a tap and watches it.
+/// Holds the device, releases it with a tap and watches it.
 class TrialPoses final : public PoseSource {
  public:
   TrialPoses(const LoopChoice& loop, const Rest& rest, const Vec3& reference_M, double period,
@@ -92,7 +92,7 @@ class TrialPoses final : public PoseSource {
     if (speed * last_speed_ < 0.0) ++sign_changes_;
     if (speed != 0.0) last_speed_ = speed;
     const auto frames = static_cast<double>(swing.position_W.size());
-    // Friction and counts leave the device beside the place where it rested.
+    // With friction or counts the device may stop away from its place of rest.
     const bool away = !rest_.friction && !rest_.counts && way > DEAD_SHARE * rest_.tap_m;
     const double any_speed = rest_.friction ? swing.velocity_W.back().norm() : std::abs(speed);
     if (away || any_speed > DEAD_SHARE * rest_.tap_m * rest_.natural_frequency) last_lively_ = frames;
@@ -103,7 +103,7 @@ class TrialPoses final : public PoseSource {
     if (rest_.friction && state_->over && !state_->decided) look_whether_it_ends();
   }
 
-  /// After a round of oscillations under friction: grows, goes on for ever, or may still die down.
+  /// After a round of oscillations under friction: does it grow, persist, or perhaps die down?
   void look_whether_it_ends() {
     const Cleanliness judged = judge(state_->swing);
     if (judged.amplitude_m < state_->swing.resolution_m) return;  // within the counts
@@ -124,7 +124,7 @@ class TrialPoses final : public PoseSource {
   std::shared_ptr<TrialState> state_;
   Pose pose_;
   HeldMesh mesh_;
-  Vec3 held_at_W_;  ///< Where the device's point rests.
+  Vec3 held_at_W_;  ///< Place of rest of the device's point.
   std::deque<RenderedForce> under_way_;
   double last_speed_ = 0.0;
   std::int64_t sign_changes_ = 0;
@@ -132,14 +132,14 @@ class TrialPoses final : public PoseSource {
   double last_lively_ = 0.0;
 };
 
-/// The last of the frames in which the method is held at a pose.
+/// The last of the frames with the method held at a pose.
 FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& method,
                     const DriverChoice& driver) {
   held.poses.front() = X_WM;
   return run_lockstep({method}, held, driver, {}).front().frames.back();
 }
 
-/// Moves the pose along the push to where the contact carries it. Whole steps find the place, TOMS 748 the pose.
+/// Moves the pose along the push until the contact carries it: whole steps, then TOMS 748.
 /// @return nothing where no pose within a cutoff of the first one does
 std::optional<Pose> rest_under_push(const Pose& start, const Vec3& push_W,
                                     const std::function<FrameRecord(const Pose&)>& held, double cutoff) {
@@ -178,12 +178,12 @@ double moving_mass(const DeviceDynamics& dynamics) {
   return dynamics.mass_kg + (rigid_hand ? dynamics.hand->mass_kg : 0.0);
 }
 
-/// Friction that a motion along a direction meets: that of each axis times its share of the way.
+/// Friction against a motion along a direction: that of each axis times its share of the distance.
 double felt_friction(const DeviceDynamics& dynamics, const Vec3& along) {
   return dynamics.friction_n * along.lpNorm<1>();
 }
 
-/// The way over which friction holds the watched point against the springs of contact and hand.
+/// The distance within which friction holds the watched point against contact and hand springs.
 double stiction_band(const LoopChoice& loop, const Rest& rest, double stiffness) {
   const Vec3 along_W = rest.rendered.force.normalized();
   double friction = felt_friction(loop.dynamics, along_W);
@@ -195,7 +195,7 @@ double stiction_band(const LoopChoice& loop, const Rest& rest, double stiffness)
   return friction / (stiffness + (rigid_hand ? loop.dynamics.hand->stiffness_n_per_m : 0.0));
 }
 
-/// One count of the encoders at the watched point; 0: they are exact.
+/// One count of the encoders at the watched point; 0 for exact ones.
 double one_count(const LoopChoice& loop, const Rest& rest) {
   return std::max(loop.resolution_m,
                   loop.rotation ? loop.rotation->resolution_rad * rest.lever_W.norm() : 0.0);
@@ -213,7 +213,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   DriverChoice driver = experiment.driver;
   driver.repetitions = 1;
   driver.block_frames = BLOCK_FRAMES;
-  // A method that searches in every frame knows the contact at once.
+  // A method that searches in every frame has the contact at once.
   const bool searches_now_and_then = method.make()->description().tracks_locally;
   const std::int64_t hold_frames =
       searches_now_and_then ? driver.search_every_frames + driver.search_latency_frames + 1 : 1;
@@ -237,7 +237,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   trial.force_at_rest_W = at_rest.force;
   Rest rest;
   rest.pose = held.poses.front();
-  // Clipped already: a second time changes neither length nor sign.
+  // Already clipped: clipping again changes neither length nor sign.
   rest.rendered = input.device.render({at_rest.force, at_rest.torque, 0.0});
   if (!loop.rotation) rest.rendered.torque.setZero();
   trial.clipped = at_rest.force_clipped || (loop.rotation && rest.rendered.torque_clipped);

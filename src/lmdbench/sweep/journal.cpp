@@ -106,7 +106,7 @@ void Journal::write(Json line) {
   if (descriptor.get() < 0 || ::ftruncate(descriptor.get(), static_cast<off_t>(whole_)) != 0)
     fail_to_write(file_);
   std::string text = whole_ == 0 ? FIRST_LINE : "";
-  // Names of programs and files may hold any bytes.
+  // Names of programs and files may contain any bytes.
   text += line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t written = ::write(descriptor.get(), text.data() + done, text.size() - done);

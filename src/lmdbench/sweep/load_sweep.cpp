@@ -13,7 +13,7 @@
 
 namespace lmdbench {
 
-/// experiments/schema/sweep.schema.json as it was when the program was built.
+/// experiments/schema/sweep.schema.json as of the build.
 const std::string& sweep_schema_text();
 
 namespace {
@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::json;
 using Axes = std::vector<std::pair<std::string, std::string>>;
 
-/// A place of the sweep in the experiment, whose only method the series' one is.
+/// A place of the sweep in the experiment, whose only method is the series' one.
 std::string in_experiment(const std::string& place) {
   constexpr std::string_view METHOD = "/method/";
   return place.starts_with(METHOD) ? "/methods/0/" + place.substr(METHOD.size()) : place;
@@ -32,8 +32,8 @@ void add_overrides(std::vector<Override>& overrides, const Json& values) {
     overrides.push_back(in_experiment(place) + "=" + value.dump());
 }
 
-/// Every combination of the axes' values.
-/// @param place of the axes in the sweep file
+/// All combinations of the axes' values.
+/// @param place JSON pointer of the axes in the sweep file
 std::vector<Axes> combinations(const Json& axes, const JsonDocument& document, const std::string& place,
                                std::size_t most_points) {
   std::vector<Axes> result{{}};

@@ -83,7 +83,7 @@ std::vector<std::string> point_keys(const Sweep& sweep, InputHashes& hashes) {
 
 namespace {
 
-/// {place: value} of all that decides what is true.
+/// {place: value} of all that determines the true sets.
 using Question = std::map<std::string, std::string>;
 
 Question question_of(const SweepPoint& point) {
@@ -98,7 +98,7 @@ Question question_of(const SweepPoint& point) {
   return question;
 }
 
-/// Places in which the questions differ; one that only some have differs, too.
+/// Places in which the questions differ, those missing in some included.
 std::set<std::string> varying(const std::vector<const Question*>& questions) {
   std::map<std::string, std::set<std::string>> values;
   std::map<std::string, std::size_t> count;

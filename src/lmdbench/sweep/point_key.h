@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-/// What tells the points of a sweep apart, now and in what was measured before.
+/// Keys that identify the points of a sweep, in this run and earlier ones.
 namespace lmdbench {
 
-/// What points must share to have one truth and to take turns: all but the method, the driver and the probes.
+/// Key of all but method, driver and probes: points that share it share truth and take turns.
 std::string scene_key(const Experiment& experiment);
 
-/// An input is not what it was when the sweep began: its points cannot be told apart any more.
+/// An input changed since the sweep began: keys no longer identify its points.
 class InputChanged : public InputError {
  public:
   explicit InputChanged(const std::filesystem::path& file);
@@ -30,22 +30,22 @@ class InputHashes {
   std::string of(const std::filesystem::path& file);
   /// @throws InputChanged where a run was prepared from other bytes
   void check(const PreparedRun& run);
-  /// Those that exist, but for the program.
+  /// Those that exist, without the program.
   std::vector<InputFile> files() const;
 
  private:
   std::map<std::string, InputFile> files_;
 };
 
-/// Names a point by all that its numbers depend on, the program included.
+/// A key made of all that a point's numbers depend on, the program included.
 std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes);
 
 /// The keys of all points, in their order.
 std::vector<std::string> point_keys(const Sweep& sweep, InputHashes& hashes);
 
-/// Fills in SweepPoint::problem. What a point is asked is its truth's experiment without what only a method or a schedule does
-/// (methods, driver, probes, recording): of the points of one scene the places in which that differs make problems apart,
-/// whether an axis, a series' `set` or its `truth` changed them.
+/// Fills in SweepPoint::problem. A point's problem is its truth's experiment without the parts for
+/// methods and schedules alone (methods, driver, probes, recording). Where those of one scene
+/// differ, by an axis or a series' `set` or `truth`, the problems differ.
 void name_problems(std::vector<SweepPoint>& points);
 
 }  // namespace lmdbench

@@ -14,7 +14,7 @@
 
 namespace lmdbench {
 
-/// A number that every point of a sweep has, or NaN.
+/// A number of every point of a sweep; may be NaN.
 struct PointNumber {
   std::string_view name;  ///< Of the dataset and the JSON key; ends in its unit where it has one.
   std::string_view units;
@@ -24,10 +24,10 @@ struct PointNumber {
 /// All of them: a run's summary, the steps, the times; in the order of reports.
 const std::vector<PointNumber>& point_numbers();
 
-/// What one traversal of a path by a point leaves, as the journal keeps it. Times are whole nanoseconds, which is what
-/// the clock tells.
+/// One traversal of a path by a point, as the journal keeps it. Times are whole nanoseconds, the
+/// resolution of the clock.
 struct PointRun {
-  std::string result_hash;  ///< Equal in every repetition, as is the next.
+  std::string result_hash;  ///< Equal in all repetitions, as the next.
   std::string work_hash;
   RepetitionTimes times;
 
@@ -35,10 +35,10 @@ struct PointRun {
   static PointRun from_json(const nlohmann::json& json);
 };
 
-/// What is the same in every repetition, of the first one.
+/// Results that all repetitions share, from the first one.
 struct PointErrors {
   std::map<std::string, double> numbers;         ///< NaN is left out.
-  std::map<std::string, std::int64_t> counters;  ///< Sums over the path, of the local and the global part.
+  std::map<std::string, std::int64_t> counters;  ///< Sums over the path, local and global.
   std::vector<bool> counts;                      ///< Frames in contact that count.
   std::vector<std::int64_t> tracked;             ///< LMDs carried, one a frame.
   std::vector<std::int64_t> search_frames;
@@ -52,18 +52,18 @@ struct PointErrors {
   bool fits(const PointRun& run) const;
 };
 
-/// A point when all its repetitions are done, or when it failed.
+/// A point that has all its repetitions, or has failed.
 struct PointResult {
-  std::string failure;  ///< Why it has no numbers; empty where it has.
+  std::string failure;  ///< Why there are no numbers; else empty.
   std::string result_hash;
   PointErrors errors;
   std::map<std::string, double> numbers;  ///< Errors and times.
   std::vector<RepetitionTimes> repetitions;
-  std::string where_json;  ///< JSON array: where and beside what each repetition was timed (node_watch.h).
-  /// Traversals that began; more than the repetitions where some were cut off or done twice, and 0 for a failure.
+  std::string where_json;  ///< JSON array: node and load of each repetition.
+  /// Traversals begun: more than repetitions if some were cut off or repeated; 0 for a failure.
   std::int64_t begun = 0;
 
-  double number(std::string_view name) const;  ///< NaN where it was not measured.
+  double number(std::string_view name) const;  ///< NaN if unmeasured.
 };
 
 /// Puts errors and times together.

@@ -32,7 +32,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The points of one scene, path and force, with what they share. Made when the first of them has to run.
+/// What points of one scene, path and force share. Made when the first of them has to run.
 class SharedScene {
  public:
   SharedScene(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes)
@@ -51,7 +51,7 @@ class SharedScene {
     std::vector<TruthFrame> frames;
   };
 
-  /// Of the meshes that the point names for it.
+  /// True sets of the meshes that the point names for truth.
   const Truth& truth_of(const Sweep& sweep, const SweepPoint& point, const Progress& progress) {
     const std::string key = scene_key(point.truth);
     const auto [entry, is_new] = truths_.try_emplace(key);
@@ -103,7 +103,7 @@ std::map<std::string, std::int64_t> summed_counters(const MethodRecord& record,
   return counters;
 }
 
-/// What the first traversal of a path by a point is worth.
+/// Errors of a point, from its first traversal.
 PointErrors judge(const MethodRecord& record, const SweepPoint& point, const SharedScene& scene,
                   const SharedScene::Truth& truth) {
   const MethodChoice& choice = point.experiment.methods.front();
@@ -142,7 +142,7 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
   return errors;
 }
 
-/// A point and repetition that is still to be run.
+/// A point and repetition still to run.
 struct Unit {
   std::size_t point;
   std::int64_t repetition;
@@ -172,7 +172,7 @@ Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, bool by_
   return line;
 }
 
-/// @throws InputError for a line that is none of ours although its key is
+/// @throws InputError for a damaged line with the point's key
 PointResult finished_point(const SweepPoint& point, const std::string& key, std::int64_t repetitions,
                            const Journal& journal) {
   try {
@@ -191,7 +191,7 @@ PointResult finished_point(const SweepPoint& point, const std::string& key, std:
     result.where_json = Json(where).dump();
     result.begun = begun;
     return result;
-  } catch (const std::exception& error) {  // of the JSON library, or numbers that do not fit
+  } catch (const std::exception& error) {  // of JSON, or numbers that do not fit
     throw InputError(journal.file().string(), "key " + key, std::string("a line is damaged: ") + error.what(),
                      "remove the file and run again");
   }
@@ -255,7 +255,7 @@ SweepWork run_points(const Sweep& sweep, const std::vector<std::size_t>& points,
           line["repetition"] = repetition;
           journal.append(std::move(line));
         } catch (const EnvironmentError&) {
-          throw;  // a full disk is no property of a point
+          throw;  // a full disk is not the point's fault
         } catch (const InputChanged&) {
           throw;
         } catch (const Error& error) {
@@ -294,7 +294,7 @@ SweepResult collect_points(const Sweep& sweep, const Journal& journal, InputHash
 
 namespace {
 
-/// @param measure what is done before the journal is collected
+/// @param measure called before the journal is collected
 SweepResult sweep_to_file(const Sweep& sweep, const std::filesystem::path& file,
                           const std::vector<std::string>& argv,
                           const std::function<SweepWork(Journal&, InputHashes&)>& measure) {

@@ -26,18 +26,18 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t NAME_DIGITS = 16;  // of a hash: a folder of parts has thousands of files at most
+constexpr std::size_t NAME_DIGITS = 16;  // of a hash: enough for thousands
 constexpr std::chrono::milliseconds PAUSE{200};
 
 std::string part_name(const Sweep& sweep, const std::vector<std::size_t>& points, InputHashes& hashes) {
-  std::set<std::string> keys;  // whatever order the points were named in
+  std::set<std::string> keys;  // independent of the points' order
   for (const std::size_t point : points) keys.insert(point_key(sweep, sweep.points[point], hashes));
   std::string text;
   for (const std::string& key : keys) text += key;
   return sha256_of_text(text).substr(0, NAME_DIGITS) + ".jsonl";
 }
 
-/// Holds the part's journal until it is closed.
+/// Locks the part's journal until it is closed.
 FileDescriptor hold(const std::filesystem::path& part, const RunProgress& progress) {
   FileDescriptor held(::open(part.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
   if (!held.valid())
@@ -94,7 +94,7 @@ SweepWork measure_part(const Sweep& sweep, const std::vector<std::size_t>& point
                            "choose another place with --out");
   refuse_unsafe_output(part, {.what = "journal", .is_ours = &is_own_journal}, inputs_of(sweep), "--out");
   const FileDescriptor held = hold(part, progress);
-  Journal journal = journal_with_parts(part, file);  // after whoever held it before
+  Journal journal = journal_with_parts(part, file);  // after its earlier owner
   return run_points(sweep, points, journal, hashes, true, progress);
 }
 

@@ -16,9 +16,9 @@
 #include <string_view>
 #include <vector>
 
-/// What the parts of the paper's two algorithms see at one pose of a real scene: levels of the hierarchy, node tests,
-/// neighbourhoods of local tracking, the visibility pre-test. For figures and for people who want to look inside; every
-/// verdict is that of the code that the methods run.
+/// Intermediate results of the paper's two algorithms at one pose of a real scene: levels of the
+/// hierarchy, node tests, neighbourhoods of local tracking, the visibility pre-test. For figures
+/// and for curious people; every verdict is that of the methods' own code.
 namespace lmdbench {
 
 /// A node with the triangles below it.
@@ -27,7 +27,7 @@ struct NodePatch {
   std::vector<std::int32_t> triangles;
 };
 
-/// Nodes at this depth (0 is the root) and the leaves above it: together they hold every triangle once.
+/// Nodes at this depth (root: 0) and the leaves above it: together they hold every triangle once.
 std::vector<NodePatch> hierarchy_level(const Hierarchy& hierarchy, int level);
 
 /// The first test that rejects a node pair, in the order of the traversal.
@@ -48,8 +48,8 @@ struct NodeTestCase {
   double angle_fixed = 0.0;      ///< angle(S_A - S_B, C_B): G3.b rejects above sigma + phi_B.
 };
 
-/// Of all pairs of nodes of one level whose spheres do not overlap the one whose centres are nearest, for each verdict that
-/// some pair has.
+/// Of one level's node pairs without overlap of the spheres, the nearest by centres for each
+/// verdict that occurs.
 std::vector<NodeTestCase> node_test_cases(const Scene& scene, const Pose& X_WM, int level);
 
 /// Neighbourhood T of a feature (L1; Fig. 5).
@@ -59,10 +59,10 @@ struct Neighbourhood {
   std::vector<std::int32_t> triangles;
 };
 
-/// Of a triangle itself (both readings), its first side and its first corner.
+/// Of the triangle itself (both readings), its first side and its first corner.
 std::vector<Neighbourhood> neighbourhoods(const Surface& surface, std::int32_t triangle);
 
-/// A leaf pair and what the visibility pre-test says of it (Fig. 6); world coordinates.
+/// A leaf pair and its result of the visibility pre-test (Fig. 6); world coordinates.
 struct SightCase {
   bool sees = false;
   std::int32_t triangle_moving = -1, triangle_fixed = -1;
@@ -71,13 +71,13 @@ struct SightCase {
   Sight moving_on_fixed, fixed_on_moving;
 };
 
-/// Of the leaf pairs of the improved algorithm's search within the cutoff the nearest one that is seen and the nearest one that is culled,
-/// the first fixed body's; those that there are.
+/// The nearest seen and the nearest culled leaf pair, if any, of the improved algorithm's search
+/// within the cutoff, with the first fixed body.
 std::vector<SightCase> sight_cases(const Scene& scene, const Pose& X_WM);
 
-/// All of it as JSON: the moving mesh in its own frame, everything else of the pair in the world's; lengths in metres,
+/// All of it as JSON: the moving mesh in its own frame, the rest in the world's; lengths in metres,
 /// angles in radians (keys as the members above).
-/// @param levels of the moving mesh's hierarchy that are told; the last one's nodes are tested against the fixed mesh's
+/// @param levels of the moving mesh's hierarchy; the last is tested against the fixed mesh
 /// @throws UsageError where the meshes are too far apart for a leaf pair
 std::string anatomy_json(const Scene& scene, const Pose& X_WM, double time, const std::vector<int>& levels);
 

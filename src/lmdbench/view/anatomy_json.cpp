@@ -33,7 +33,7 @@ OrderedJson mesh_json(const Body& body) {
           {"face_normals", vectors_json(surface.face_normals)}};
 }
 
-/// A node as its tests see it.
+/// A node with the values that its tests use.
 template <class Node>
 OrderedJson node_json(const Node& node, const NodePatch& patch) {
   return {{"node", patch.node},

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* FEATURE_OF = "feature of {} (0 vertex, 1 edge, 2 face)";
 
-/// Writes into the folder of the request, and replaces nothing but earlier exports.
+/// Writes into the requested folder, and replaces earlier exports only.
 class Exporter {
  public:
   Exporter(fs::path input, fs::path folder) : input_(std::move(input)), folder_(std::move(folder)) {}
@@ -98,7 +98,7 @@ Vec3 row(const std::vector<double>& values, std::size_t index) {
   return {values[3 * index], values[3 * index + 1], values[3 * index + 2]};
 }
 
-/// The LMD lists that a run recorded of a method.
+/// A method's LMD lists, as recorded by the run.
 struct RecordedLmds {
   std::vector<std::int64_t> offset, kind_moving, kind_fixed;
   std::vector<double> distance, point_moving, point_fixed;
@@ -121,7 +121,7 @@ struct RecordedLmds {
   }
 };
 
-/// The LMD lists that the run kept.
+/// Exports the recorded LMD lists.
 void export_recorded(Exporter& exporter, const ResultReader& result, const std::vector<std::string>& labels,
                      const ResultTrack& track) {
   for (const std::string& label : labels) {
@@ -135,7 +135,7 @@ void export_recorded(Exporter& exporter, const ResultReader& result, const std::
   }
 }
 
-/// The fixed meshes: once, or where they deform in each frame.
+/// The fixed meshes: once, or in each frame where they deform.
 void export_fixed(Exporter& exporter, const ResultScene& result_scene,
                   const std::vector<ResultTrack>& tracks) {
   const SceneDeformation* deformation = result_scene.motion.deformation.get();
@@ -192,7 +192,7 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
   export_recorded(exporter, result, labels, track);
 }
 
-/// Meshes, exact LMDs and forces of several movers; each carries its number.
+/// Meshes, exact LMDs and forces of several movers, each with its number.
 void export_movers(Exporter& exporter, const ResultReader& result, const ResultScene& result_scene,
                    const ResultTrack& track) {
   const MoverPlay& play = *result_scene.motion.movers;
@@ -200,7 +200,7 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
   const Scene& scene = frames.scene();
   const std::unique_ptr<Method> exact = exact_method(scene);
   std::vector<std::string> labels;
-  // A run on the clock renders what the device holds alone.
+  // A realtime run renders only the held object's force.
   for (const std::string& label :
        track.method.empty() ? result.groups("/methods") : std::vector<std::string>{track.method})
     if (result.has("/methods/" + label + "/movers/force")) labels.push_back(label);

@@ -33,7 +33,7 @@ constexpr const char* MODULES = "import h5py, jinja2, markdown, matplotlib, nump
 constexpr const char* PACKAGES =
     "apt-get install python3-h5py python3-jinja2 python3-markdown python3-matplotlib python3-numpy "
     "python3-pil";
-/// Where the scripts are, if not in the program's data folder.
+/// Environment variable with the scripts' folder, if not the program's data folder.
 constexpr const char* SCRIPTS_VARIABLE = "LMDBENCH_SCRIPTS";
 
 fs::path report_script() {
@@ -46,26 +46,26 @@ fs::path report_script() {
   return script;
 }
 
-/// The first interpreter that has the modules: python3 may be a private build without the distribution's.
+/// The first interpreter with the modules: python3 may be a private build without them.
 std::string find_python() {
   for (const char* candidate : {"python3", "/usr/bin/python3"}) {
     try {
       if (run_program({candidate, "-c", MODULES}, fs::current_path(), PACKAGES).exit_status == 0)
         return candidate;
     } catch (const EnvironmentError&) {
-      continue;  // not there: the next one may be
+      continue;  // missing: try the next one
     }
   }
   throw EnvironmentError("python3", "", fmt::format("no interpreter can do '{}'", MODULES), PACKAGES);
 }
 
-/// What a script says last: its error, without the way that led there.
+/// The last line of a script's output: its error, without the traceback.
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text.substr(text.rfind('\n') + 1);
 }
 
-/// A scene for the 3D view, or the reason why there is none.
+/// Writes a scene for the 3D view, or the reason why there is none.
 void write_scene_or_reason(const ResultReader& result, const fs::path& folder, const Tell& warn) {
   fs::create_directory(folder);
   try {
@@ -86,7 +86,7 @@ fs::path write_report(const ReportRequest& request, const Tell& progress, const 
   for (std::size_t i = 0; i < request.results.size(); ++i) {
     progress(fmt::format("reading {}", request.results[i].string()));
     const ResultReader result(request.results[i]);
-    // A sweep has no frames to look at.
+    // A sweep has no frames to show.
     if (!result.has("/sweep")) write_scene_or_reason(result, scenes.path() / fmt::to_string(i), warn);
     argv.push_back(fs::absolute(request.results[i]).string());
   }
@@ -112,13 +112,13 @@ fs::path write_report(const ReportRequest& request, const Tell& progress, const 
 namespace {
 
 constexpr std::size_t MOST_FRAMES = 600;
-/// Movers times frames: with more the page shows fewer frames.
+/// Movers times frames: beyond it the page shows fewer frames.
 constexpr std::size_t MOST_MOVER_POSES = 30000;
 
-/// Vertices of meshes that deform, over all frames: with more the page shows fewer frames.
+/// Vertices of deforming meshes, over all frames: beyond it the page shows fewer frames.
 constexpr std::size_t MOST_SHAPE_VERTICES = 1000000;
 
-/// A mesh of the view, under its name there.
+/// A mesh of the view, with its name there.
 struct DrawnMesh {
   std::string role;
   std::size_t object = 0;  ///< Of the scene.
@@ -130,7 +130,7 @@ struct DrawnMesh {
   }
 };
 
-/// The moving mesh, one an entry of `/movers`, and fixed ones.
+/// The moving mesh, one for each entry of `/movers`, and fixed ones.
 std::vector<DrawnMesh> drawn_meshes(const ResultReader& result, const ResultScene& result_scene,
                                     const std::vector<ResultTrack>& tracks) {
   const Scene& scene = result_scene.rest;
@@ -150,7 +150,7 @@ std::vector<DrawnMesh> drawn_meshes(const ResultReader& result, const ResultScen
   return meshes;
 }
 
-/// A triangle mesh each; of what deforms the vertices of every frame, too, in single precision.
+/// A triangle mesh each; deforming ones also with every frame's vertices, in single precision.
 void write_meshes(const std::vector<DrawnMesh>& meshes, const ResultScene& result_scene,
                   const std::vector<std::size_t>& frames, const std::filesystem::path& folder) {
   for (const DrawnMesh& mesh : meshes) write_off(folder / (mesh.role + ".off"), mesh.in(result_scene.rest));

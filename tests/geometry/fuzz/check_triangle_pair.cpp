@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t PAIR_BYTES = 18 * sizeof(double);
 
-/// Largest error of a distance, relative to the largest coordinate: the published bound.
+/// Largest error of a distance, relative to the largest coordinate, as published.
 constexpr double ERROR_BOUND = 1e-12;
 /// Squares of distances outside this range of the largest coordinate overflow or lose digits.
 constexpr double SMALLEST_JUDGED = 0x1p-400;

@@ -13,12 +13,12 @@
 
 namespace lmdbench::testing {
 
-/// A pair as bytes: 18 doubles in the machine's order, a's corners first. Fewer bytes than that are no pair.
+/// A pair from 18 doubles in the machine's order, a's corners first. Nothing for fewer bytes.
 std::optional<TrianglePair> pair_from_bytes(std::span<const std::uint8_t> bytes);
 std::vector<std::uint8_t> bytes_from_pair(const TrianglePair& pair);
 
-/// What triangle_distance and its batch promise for any 18 doubles, checked; says what is broken, with the
-/// pair as C++, or is empty.
+/// Checks the promises of triangle_distance and its batch for any 18 doubles. Empty, or what is
+/// broken, with the pair as C++ text.
 std::string broken_promise(const TrianglePair& pair);
 
 }  // namespace lmdbench::testing

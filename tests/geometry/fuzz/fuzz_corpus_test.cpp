@@ -38,7 +38,7 @@ TEST(FuzzCorpus, KeepsEveryPromise) {
 }
 
 TEST(FuzzCheck, KeepsEveryPromiseForRandomBits) {
-  // Any 18 doubles: denormals, infinities, not-a-numbers, and neighbours of numbers that are there already.
+  // Any 18 doubles: denormals, infinities, not-a-numbers, and neighbours of numbers already drawn.
   Random random(501);
   for (int i = 0; i < 20000; ++i) {
     std::array<double, 18> numbers;

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// libFuzzer's entry: lmdbench_triangle_fuzz tests/geometry/fuzz/corpus -max_len=144. Finds end up in the
-/// corpus, which the test FuzzCorpus replays.
+/// libFuzzer's entry: lmdbench_triangle_fuzz tests/geometry/fuzz/corpus -max_len=144. Finds go to
+/// the corpus, which the test FuzzCorpus replays.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto pair = lmdbench::testing::pair_from_bytes({data, size});
   if (!pair) return 0;

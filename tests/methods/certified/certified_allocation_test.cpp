@@ -25,7 +25,7 @@ void lmdbench::testing::note_allocation() {
 namespace lmdbench {
 namespace {
 
-/// Runs the poses twice and counts what the second round allocates.
+/// Runs the poses twice and counts allocations of a third round.
 std::size_t allocations_after_warm_up(const Scene& scene, bool coherent, const std::vector<Pose>& poses) {
   CertifiedOptions options;
   options.frame_coherence = coherent;
@@ -33,7 +33,7 @@ std::size_t allocations_after_warm_up(const Scene& scene, bool coherent, const s
   LmdSet lmds;
   WorkCounters counters;
   std::size_t found = 0;
-  // Twice, because the way back to the first pose is a jump, after which the tests are kept in another order.
+  // Twice: the way back to the first pose is a jump, after which the tests are in another order.
   for (int round = 0; round < 2; ++round)
     for (const Pose& pose : poses) method.search(pose, lmds, counters);
   const std::size_t before = allocations;

@@ -27,7 +27,7 @@ using testing::make_scene;
 using testing::random_direction;
 using testing::uniform;
 
-/// Swings about a pose: slow and fast, forth and back, standing still at times, with a jump now and then.
+/// Swings about a pose: slow and fast, back and forth, sometimes at rest, with a jump now and then.
 std::vector<Pose> swing(const Pose& middle, double size, double speed, int frames, std::mt19937_64& random) {
   std::vector<Pose> poses;
   const Vec3 direction = random_direction(random), axis = random_direction(random);
@@ -44,7 +44,7 @@ std::vector<Pose> swing(const Pose& middle, double size, double speed, int frame
   return poses;
 }
 
-/// The coherent method at every pose of a path against truth and against a search from scratch.
+/// Compares the coherent method at every pose of a path with truth and with a search from scratch.
 void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pose>& poses,
                         std::size_t& lmd_count) {
   Scene limited = scene;
@@ -82,7 +82,7 @@ void expect_truth_along(const Scene& scene, double cutoff, const std::vector<Pos
 void expect_truth_on_swings(const Scene& scene, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const double size = bounding_box_diagonal(scene.fixed[0]->surface().mesh);
-  std::size_t all = 0;  // a patch has LMDs on its outer side alone
+  std::size_t all = 0;  // a patch has LMDs on its outer side only
   for (const double speed : {0.0002, 0.001, 0.002, 0.01}) {
     const Pose pose = grazing_pose(scene, 0.01 * size, random);
     std::size_t lmds = 0;
@@ -129,8 +129,8 @@ TEST(CertifiedCoherence, FindsTheTruthThroughContactAndPenetration) {
 }
 
 TEST(CertifiedCoherence, FindsTheTruthWhereCoplanarFacesComeToTouch) {
-  // No axis that the touch test tries lies in the common plane: beyond the cutoff such faces are told apart
-  // by their exact distance alone.
+  // No axis of the touch test lies in the common plane: only their exact distance shows that such
+  // faces are apart.
   const Scene scene = make_scene(make_box({1.0, 1.0, 1.0}, 2), make_box({1.0, 1.0, 1.0}, 2), 0.0);
   std::vector<Pose> poses;
   for (int frame = 0; frame < 300; ++frame) {
@@ -161,12 +161,12 @@ TEST(CertifiedCoherence, AJumpLeavesNoWorkBehind) {
   elsewhere.translation += Vec3(0.0, 0.0, 1.0);
   WorkCounters ignored;
   certified.search(elsewhere, lmds, ignored);
-  // The jump there and back is no pace that goes on.
+  // The jump there and back must not count as a pace that continues.
   EXPECT_LE(work_along_slide(), undisturbed + undisturbed / 4);
 }
 
 TEST(CertifiedCoherence, NoFrameOfASmoothMotionIsMadeAnew) {
-  // Round the fixed body, so that the largest coordinate passes 1: tolerances that follow it must not end what is kept.
+  // The largest coordinate passes 1: tolerances depend on it, but must not end kept results.
   const Scene scene = make_scene(make_blob(0.35, 0.02, 4), make_blob(0.35, 0.02, 4), 0.05);
   Certified coherent(scene), scratch(scene, {.frame_coherence = false});
   LmdSet ignored;
@@ -191,7 +191,7 @@ TEST(CertifiedCoherence, NoFrameOfASmoothMotionIsMadeAnew) {
 }
 
 TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
-  // Nothing coheres: every frame falls back to a search from scratch.
+  // There is no coherence: every frame falls back to a search from scratch.
   const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
   std::mt19937_64 random(7);
   Scene limited = scene;
@@ -213,7 +213,7 @@ TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
 }
 
 TEST(CertifiedCoherence, FindsTheTruthUnderTremor) {
-  // Forecasts are never right, and must not be needed.
+  // Forecasts are always wrong; the set must not depend on them.
   const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);
   std::mt19937_64 random(9);
   std::vector<Pose> poses = swing(grazing_pose(scene, 0.02, random), 2.0, 0.001, 300, random);
@@ -226,7 +226,7 @@ TEST(CertifiedCoherence, FindsTheTruthUnderTremor) {
 }
 
 TEST(CertifiedCoherence, FindsTheTruthWhereTheMotionTurnsRound) {
-  // Long steady stretches, so that plans are long, and then the opposite.
+  // Long steady stretches make long plans; then the motion reverses.
   const Scene scene = make_scene(make_blob(1.0, 0.3, 3), make_blob(1.0, 0.2, 3), 0.0);
   std::mt19937_64 random(10);
   const Pose middle = grazing_pose(scene, 0.02, random);
@@ -243,7 +243,7 @@ TEST(CertifiedCoherence, FindsTheTruthWhereTheMotionTurnsRound) {
   expect_truth_along(scene, 0.1, poses);
 }
 
-/// Centre and radius of a feature.
+/// Centre and radius of a sphere round a feature.
 std::pair<Vec3, double> body_of(const Surface& surface, const FeatureId& feature) {
   std::vector<Vec3> corners;
   const FeatureCorners vertices(surface, feature);
@@ -269,7 +269,7 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
   for (int i = 0; i < 40; ++i) {
     const Pose pose = grazing_pose(scene, 0.05, random);
     const RigidTransform before(pose);
-    // A generous cutoff offers many pairs of every kind.
+    // A large cutoff gives many pairs of every kind.
     const WideQuery query(scene.moving->prepared<WideHierarchy>(), scene.fixed[0]->prepared<WideHierarchy>(),
                           before, cutoff, 1e-9);
     WideCounters counters;
@@ -288,7 +288,7 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
       for (int trial = 0; trial < 12; ++trial) {
         const double angle = 0.3 * uniform(random) * uniform(random) * uniform(random);
         Vec3 displacement = 0.5 * uniform(random) * uniform(random) * random_direction(random);
-        // Motions that lose nothing may be long.
+        // In half of the trials the motion uses no slack through the gradient, and may be long.
         if (trial % 2 == 0)
           displacement -= std::max(0.0, displacement.dot(certificate.gradient)) * certificate.gradient;
         const double left = certificate.slack - certificate.gradient.dot(displacement) -

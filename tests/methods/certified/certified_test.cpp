@@ -34,7 +34,7 @@ std::string describe(const LmdSet& lmds) {
   return text.str();
 }
 
-/// Same feature pairs in the same order, same points up to 1e-12 of the coordinates, same flags.
+/// Same feature pairs in the same order, same flags, points equal up to 1e-12 of the coordinates.
 ::testing::AssertionResult same_set(const LmdSet& truth, const LmdSet& found) {
   const auto failure = [&] {
     return ::testing::AssertionFailure() << "truth:\n" << describe(truth) << "found:\n" << describe(found);
@@ -54,7 +54,7 @@ std::string describe(const LmdSet& lmds) {
   return ::testing::AssertionSuccess();
 }
 
-/// Runs truth and both kernels at a pose; counts the LMDs, so that a test cannot pass on empty sets.
+/// Runs truth and both kernels at a pose. It counts LMDs, so that empty sets cannot pass a test.
 class KernelComparison {
  public:
   void check(Scene scene, const Pose& pose, double cutoff) {
@@ -91,7 +91,7 @@ void expect_truth_at_random_poses(const Scene& scene, int poses, std::uint64_t s
   for (int i = 0; i < poses; ++i) {
     Pose pose = grazing_pose(scene, 0.002 * size, random);
     for (const double cutoff : {0.005, 0.02, 0.05}) comparison.check(scene, pose, cutoff * size);
-    // Deeper, down to interpenetration.
+    // Closer, until they intersect.
     pose.translation *= 0.97;
     comparison.check(scene, pose, 0.02 * size);
   }
@@ -128,15 +128,15 @@ TEST(Certified, FindsTheTruthOnBoxesAndReflexEdges) {
 }
 
 TEST(Certified, FindsTheTruthOnBoxesInParallel) {
-  // Every kind of plateau: face to face, edge to edge, edge over face, corner over face, and rocking by less
-  // and more than the tolerances.
+  // Every kind of level contact: face on face, edge on edge, edge on face, corner on face; tilts
+  // below and above the tolerances.
   const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.1, 0.1, 0.1}, 2), 0.0);
   KernelComparison comparison;
   for (const double x : {0.0, 0.03, 0.05, 0.1, 0.11}) {
     for (const double y : {0.0, 0.02, 0.1, 0.12}) {
       for (const double z : {0.1001, 0.11, 0.12}) {
         for (const double angle : {0.0, 1e-12, 1e-9, 1e-7, 1e-4}) {
-          // An overlap that is 2e-11 wide has no centroid to 1e-12 along it.
+          // An overlap of width 2e-11 has no centroid exact to 1e-12 along its width.
           if (x == 0.1 && angle == 1e-9) continue;
           Pose pose = moved(x, y, z);
           pose.rotation = Eigen::AngleAxisd(angle, Vec3(0.6, 0.8, 0.0));
@@ -149,7 +149,7 @@ TEST(Certified, FindsTheTruthOnBoxesInParallel) {
 }
 
 TEST(Certified, FindsTheTruthOnNearlyParallelEdges) {
-  // Two sharp edges that cross close to an end of either, at angles for which the place of the crossing is no longer exact.
+  // Two sharp edges that cross near an end, at angles for which the crossing's place is inexact.
   const Scene scene = make_scene(make_wedge(0.1, 0.1, 0.05), make_wedge(0.1, 0.1, 0.05), 0.0);
   std::mt19937_64 random(12);
   KernelComparison comparison;
@@ -159,7 +159,7 @@ TEST(Certified, FindsTheTruthOnNearlyParallelEdges) {
     Pose pose;
     pose.rotation =
         Eigen::AngleAxisd(angle, Vec3::UnitZ()) * Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitY());
-    // The crossing is `from_end` inside the end of the fixed edge, somewhere on the moving one.
+    // The crossing is `from_end` inside the end of the fixed edge, somewhere on the moving edge.
     const double place = i % 2 == 0 ? 0.05 - from_end : 0.09 * (testing::uniform(random) - 0.5);
     const Vec3 on_moving = pose.rotation * Vec3(0.0, place, 0.025);
     pose.translation = Vec3(0.0, 0.05 - from_end, 0.025 + 0.002 * testing::uniform(random)) - on_moving;
@@ -214,7 +214,7 @@ TEST(Certified, FindsTheTruthFarFromTheOrigin) {
 }
 
 TEST(Certified, FindsTheTruthOnBrokenMeshes) {
-  // Triangles without area, duplicates, flipped ones, a fan of three round one edge, a vertex of two sheets.
+  // Zero areas, duplicates, flipped triangles, three triangles on one edge, a vertex of two sheets.
   TriangleMesh broken = make_blob(1.0, 0.3, 2);
   broken.triangles.push_back({0, 0, 1});
   broken.triangles.push_back({3, 3, 3});
@@ -244,7 +244,7 @@ TriangleMesh with_short_edges(TriangleMesh mesh, double left, std::mt19937_64& r
 }
 
 TEST(Certified, FindsTheTruthBesideEdgesAsShortAsRounding) {
-  // What the definition grants a direction against a wing is rounding over the wing's length: more than the slack of a cap.
+  // A direction may leave a cone by rounding over wing length: more than the slack of a cap.
   std::mt19937_64 random(14);
   const auto power_of_ten = [&](double low, double high) {
     return std::pow(10.0, low + (high - low) * testing::uniform(random));
@@ -258,7 +258,7 @@ TEST(Certified, FindsTheTruthBesideEdgesAsShortAsRounding) {
     const Scene scene = make_scene(moving, i % 8 < 4 ? moving : make_box({1.0, 1.2, 0.7}, 2), 0.0);
     for (int k = 0; k < 10; ++k) {
       Pose pose = grazing_pose(scene, 0.01 * (1.0 - testing::uniform(random)), random);
-      if (k % 3 != 0)  // Side by side, nearly as both are made.
+      if (k % 3 != 0)  // Side by side, nearly aligned.
         pose = {(1.0 + 0.01 * testing::uniform(random)) * Vec3::UnitX(),
                 Eigen::Quaterniond(
                     Eigen::AngleAxisd(power_of_ten(-6.0, -0.5), testing::random_direction(random)))};

@@ -41,7 +41,7 @@ bool same_bits(const LmdSet& a, const LmdSet& b) {
   return true;
 }
 
-/// As two complete methods are compared: points of contacts between crossing triangles are those of two kernels.
+/// Tolerances of complete methods: two kernels compute points of contacts of crossing triangles.
 bool same_pairs(const LmdSet& a, const LmdSet& truth) {
   if (a.size() != truth.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -51,14 +51,14 @@ bool same_pairs(const LmdSet& a, const LmdSet& truth) {
   return true;
 }
 
-/// What a run over a deforming scene did.
+/// Results of a run over a deforming scene.
 struct Ran {
   std::size_t lmds = 0;
   WorkCounters kept, fresh;
 };
 
-/// One body of a scene deforms frame by frame; the method that follows it against truth and against methods on the mesh as a file
-/// would hold it.
+/// One body of a scene deforms frame by frame. Compares the method that follows it with truth and
+/// with methods on a new mesh of the same shape.
 /// @param shape  vertices at a frame
 Ran expect_truth(const TriangleMesh& moving, const TriangleMesh& fixed, bool moving_deforms, double cutoff,
                  const std::vector<Pose>& poses,
@@ -150,7 +150,7 @@ void expect_truth_of(DeformationKind kind, double amplitude, double share, std::
           expect_truth(moving_deforms ? moving.mesh : other, moving_deforms ? other : moving.mesh,
                        moving_deforms, cutoff, poses,
                        [&](std::size_t frame, std::vector<Vec3>& vertices) {
-                         // Now and then the shape stays, or is back at rest.
+                         // In some frames the shape stays as it was, or is back at rest.
                          const std::size_t moved = frame % 7 == 3 ? frame - 1 : frame;
                          deformation.at(frame % 10 == 9 ? 0.0 : 0.011 * static_cast<double>(moved), vertices);
                        })
@@ -187,7 +187,7 @@ TriangleMesh sheet(int cells) {
 }
 
 TEST(DeformingCertified, ASheetFoldsToARidgeAndBack) {
-  // Flat places fall apart, a ridge and a valley become features and none again, and the edge that was reflex turns convex.
+  // The plane splits, a ridge and a valley appear and vanish, and a reflex edge becomes convex.
   std::mt19937_64 random(11);
   const TriangleMesh flat = sheet(6);
   std::size_t lmds = 0;
@@ -214,7 +214,7 @@ TEST(DeformingCertified, ASheetFoldsToARidgeAndBack) {
 }
 
 TEST(DeformingCertified, AFoldedBoxOnATableKeepsItsContacts) {
-  // Flat on flat: the face contact falls apart as the table's top folds, and comes back.
+  // A face contact splits as the table's top folds, and comes back.
   const TriangleMesh table = make_box({3.0, 3.0, 0.5}, 4), block = make_box({1.0, 1.0, 1.0}, 2);
   std::vector<Pose> poses;
   for (int frame = 0; frame < 20; ++frame) poses.push_back(testing::moved(0.01 * frame, 0.0, 0.76));
@@ -240,7 +240,7 @@ TEST(DeformingCertified, TrianglesThatTurnOverOrVanishAreFactsNotErrors) {
     vertices = blob.vertices;
     const auto corner = static_cast<std::size_t>(blob.triangles[7][0]),
                to = static_cast<std::size_t>(blob.triangles[7][1]);
-    // Onto its neighbour, then beyond it.
+    // The vertex moves onto its neighbour, then beyond it.
     const double part = std::vector<double>{0.0, 0.5, 1.0, 1.6, 1.0, 0.0}[frame % 6];
     vertices[corner] += part * (vertices[to] - vertices[corner]);
   };
@@ -290,7 +290,7 @@ TEST(DeformingCertified, BadVerticesAreRefusedAndNothingChanges) {
 }
 
 TEST(DeformingCertified, AScanBesideAFlatPartDeformsAlone) {
-  // Triangles that are regions by themselves move; the part's joined faces share nodes with them, and stay.
+  // Triangles that are regions by themselves move; joined faces share nodes with them, but stay.
   std::mt19937_64 random(15);
   TriangleMesh mesh =
       merged(make_blob(0.5, 0.15, 2), translated(make_box({1.0, 1.0, 1.0}, 3), Vec3(1.2, 0.0, 0.0)));
@@ -323,7 +323,7 @@ TEST(DeformingCertified, AScanBesideAFlatPartDeformsAlone) {
 }
 
 TEST(DeformingCertified, WhatIsFarFromADeformationStaysKept) {
-  // The far side of a blob deforms; the tests near the contact are not made again.
+  // The far side of a blob deforms; tests near the contact stay valid.
   const TriangleMesh blob = make_blob(1.0, 0.2, 4), box = make_box({1.0, 1.0, 1.0});
   const auto body = deforming_body(blob);
   const Scene scene{make_body("box", box), {std::shared_ptr<const Body>(body)}, 0.05};

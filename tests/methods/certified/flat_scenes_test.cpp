@@ -21,7 +21,7 @@
 #include <tuple>
 #include <vector>
 
-/// Flat contact: regions and straight edges must give the sets that the triangles give.
+/// Flat contact: regions and straight edges must give the same sets as the triangles.
 namespace lmdbench {
 namespace {
 
@@ -30,7 +30,7 @@ using testing::random_direction;
 using testing::text;
 using testing::uniform;
 
-/// Every contact of the truth, of the same features, at the same place, and no other.
+/// The set has every LMD of the truth, with the same features and place, and no other.
 void expect_same(const LmdSet& set, const LmdSet& truth, const Pose& pose) {
   SCOPED_TRACE(text(pose) + "\nset:\n" + text(set) + "truth:\n" + text(truth));
   ASSERT_EQ(set.size(), truth.size());
@@ -48,7 +48,7 @@ void expect_same(const LmdSet& set, const LmdSet& truth, const Pose& pose) {
   }
 }
 
-/// Searches from scratch and, along a path, with what earlier frames left.
+/// Searches from scratch and, along a path, with results of earlier frames.
 class FlatComparison {
  public:
   explicit FlatComparison(Scene scene)
@@ -79,7 +79,7 @@ Pose turned_on_top(std::mt19937_64& random, double height) {
           Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * std::numbers::pi * uniform(random), Vec3::UnitZ()))};
 }
 
-/// LMDBENCH_TILTED_POSES, or few.
+/// LMDBENCH_TILTED_POSES, or a few.
 int tilted_poses(int few = 400) {
   const char* const wanted = std::getenv("LMDBENCH_TILTED_POSES");
   return wanted != nullptr ? std::atoi(wanted) : few;
@@ -95,7 +95,7 @@ TEST(FlatScenes, BoxesFaceToFace) {
 }
 
 TEST(FlatScenes, AlignedBoxesOfAllOffsets) {
-  // Edges over edges, corners over corners, tessellations that coincide.
+  // Edges over edges, corners over corners, and coinciding triangulations.
   FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.1, 0.1, 0.1}, 2), 0.04));
   for (int x = -5; x <= 5; ++x)
     for (int y = -5; y <= 5; ++y)
@@ -116,7 +116,7 @@ TEST(FlatScenes, NonConvexFacesAndSeveralOverlaps) {
   EXPECT_GT(blocks.found(), 40u);
 }
 
-/// Both methods, at exactly these places on the fixed mesh [m].
+/// Expects LMDs of both methods at exactly these places on the fixed mesh [m].
 void expect_contacts_at(const Scene& scene, const Pose& pose, const std::vector<Vec3>& places) {
   for (const char* method : {"exhaustive", "certified"}) {
     LmdSet set;
@@ -131,7 +131,7 @@ void expect_contacts_at(const Scene& scene, const Pose& pose, const std::vector<
   }
 }
 
-/// A strip of two slopes under a horizontal ridge between two points: upside down, for a mesh above.
+/// Two slopes that meet in a horizontal ridge at their lowest line, for a mesh that is above.
 TriangleMesh ridge_from_above(const Vec3& from, const Vec3& to) {
   const Vec3 across = 0.5 * (to - from).cross(Vec3::UnitZ()).normalized(), up(0.0, 0.0, 0.2);
   TriangleMesh mesh;
@@ -140,11 +140,11 @@ TriangleMesh ridge_from_above(const Vec3& from, const Vec3& to) {
   return mesh;
 }
 
-// Sets of minimisers that are apart are LMDs of their own, although their triangles share corners on both meshes: the
-// contacts are known by construction.
+// Separate sets of minimisers are separate LMDs, even if their triangles share corners on both
+// meshes. The contacts are known by construction.
 
 TEST(FlatScenes, OverlapsOfManyPieces) {
-  // Rings and gears on each other: pieces of one overlap are found in any order, and all of them count.
+  // Rings and gears on each other: the pieces of one overlap come in any order, and all must count.
   const TriangleMesh ring =
       make_sleeve(circle_outline(0.1), circle_outline(0.06), {.height = 0.05, .around = 24});
   const Outline teeth = gear_outline(10, 0.02, 0.0004);
@@ -160,7 +160,7 @@ TEST(FlatScenes, OverlapsOfManyPieces) {
 }
 
 TEST(FlatScenes, FloorAndWallAtOneDistanceAreTwoContacts) {
-  // They meet on the box's edge, and nowhere on the block round it.
+  // Floor and wall meet on the box's edge.
   FlatComparison corner(make_scene(make_l_block(1.0), make_box({0.2, 0.2, 0.2}, 2), 0.02));
   corner.check(testing::moved(-0.11, 0.0, -0.11));
   EXPECT_EQ(corner.found(), 2u);
@@ -196,8 +196,8 @@ TEST(FlatScenes, OverlapsThatAreApartAreTwoContactsHoweverLargeTheTriangles) {
 }
 
 TEST(FlatScenes, ARidgeOverTheNotchOfAnLHasAContactOnEitherArm) {
-  // The face of the L at y = -1: arms of width 1, the notch where x > 0 and z > 0, made of triangles that all meet in
-  // the corner of the notch. The ridge runs 0.01 before it, along x + z = 0.5.
+  // The L's face at y = -1: arms of width 1, a notch where x > 0 and z > 0. All its triangles meet
+  // in the notch's corner. The ridge is 0.01 in front of it, along x + z = 0.5.
   TriangleMesh ridge = ridge_from_above({1.5, -1.0, 0.0}, {-1.0, 1.5, 0.0});
   for (Vec3& p : ridge.vertices) p = Vec3(p.x(), -1.01 - p.z(), p.y());
   const Scene scene = make_scene(ridge, make_l_block(2.0), 0.02);
@@ -208,13 +208,13 @@ TEST(FlatScenes, ARidgeOverTheNotchOfAnLHasAContactOnEitherArm) {
 }
 
 TEST(FlatScenes, ARidgeOverALineBetweenTrianglesCountsOnce) {
-  // Four squares of two triangles each: the ridge runs over the diagonal of the first and across that of the last.
+  // Four squares of two triangles: the ridge runs along the first diagonal, across the last.
   TriangleMesh squares;
   for (const double y : {0.0, 1.0, 2.0})
     for (const double x : {0.0, 1.0, 2.0}) squares.vertices.emplace_back(x, y, 0.0);
   squares.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
                        {3, 4, 7}, {3, 7, 6}, {4, 5, 7}, {5, 8, 7}};
-  // Slopes on both sides, or a sheet that stands on its edge: seen along the contact, a sheet has no area at all.
+  // Slopes on both sides, or a sheet on its edge: seen along the contact, a sheet has no area.
   TriangleMesh sheet;
   sheet.vertices = {{0.25, 0.25, 0.01}, {1.75, 1.75, 0.01}, {0.25, 0.25, 0.5}, {1.75, 1.75, 0.5}};
   sheet.triangles = {{0, 1, 2}, {1, 3, 2}};
@@ -232,7 +232,7 @@ TEST(FlatScenes, ARidgeOverALineBetweenTrianglesCountsOnce) {
 }
 
 TEST(FlatScenes, ARidgeAcrossTwoRidgesThatMeetHasTwoContacts) {
-  // Two ridges of one height from the corner 0, with slopes on both sides; another ridge crosses both.
+  // Two ridges at one height meet at vertex 0, with slopes on both sides; a third crosses both.
   TriangleMesh corner;
   corner.vertices = {{0, 0, 0},     {1, 0, 0},      {0, 1, 0},    {1, 1, -0.5},
                      {1, -1, -0.5}, {-1, -1, -0.5}, {-1, 1, -0.5}};
@@ -241,8 +241,8 @@ TEST(FlatScenes, ARidgeAcrossTwoRidgesThatMeetHasTwoContacts) {
   expect_contacts_at(scene, {}, {{0.5, 0.0, 0.0}, {0.0, 0.5, 0.0}});
 }
 
-/// Two squares side by side, the right one with a vertex in the middle of the common side: what is open there is closed
-/// by a triangle without area, as programs for design do. No region goes through such a triangle.
+/// Two squares side by side; the right one has a vertex in the common side. A triangle without area
+/// closes the gap there, as design programs do. No region extends across such a triangle.
 TriangleMesh squares_with_a_seam() {
   TriangleMesh mesh;
   mesh.vertices = {{-0.2, -0.2, 0}, {0, -0.2, 0},  {0, 0.2, 0}, {-0.2, 0.2, 0},
@@ -252,7 +252,7 @@ TriangleMesh squares_with_a_seam() {
 }
 
 TEST(FlatScenes, AFaceInSeveralRegionsIsOneContact) {
-  // A box stands on the seam; its middle is that of the contact.
+  // A box stands on the seam; the middle of the contact is below the box's middle.
   std::mt19937_64 random(8);
   std::size_t split = 0;
   for (int i = 0; i < 60; ++i) {
@@ -288,7 +288,7 @@ TEST(FlatScenes, AFaceInSeveralRegionsIsOneContact) {
 }
 
 TEST(FlatScenes, AFaceTiltedByLessThanATolerancesIsStillOneContactAPlace) {
-  // Each triangle pair has a corner of its own for a minimum; what they have in common is one set.
+  // The minimum of each triangle pair is at another corner, but all belong to one LMD.
   std::mt19937_64 random(6);
   const Scene boxes = make_scene(make_box({0.1, 0.1, 0.1}, 3), make_box({0.3, 0.3, 0.1}, 4), 0.02);
   const Scene feet = make_scene(make_two_boxes({0.03, 0.1, 0.1}, 0.04), make_box({0.3, 0.3, 0.1}, 1), 0.02);
@@ -310,8 +310,8 @@ TEST(FlatScenes, AFaceTiltedByLessThanATolerancesIsStillOneContactAPlace) {
 }
 
 TEST(FlatScenes, EdgesAreParallelWhileTheyDriftByLessThanTheyAreKnownTo) {
-  // A ridge over a ridge, turned about a place beside the middle of what they share: where they cross, once they do. They
-  // are known to 1e-10 m and share 0.07 m.
+  // A ridge over a ridge, turned beside the middle of their common part: they touch where they
+  // cross, if they do. They are known to 1e-10 m and share 0.07 m.
   const Scene scene = make_scene(make_wedge(0.05, 0.1, 0.05), make_wedge(0.05, 0.1, 0.05), 0.01);
   for (const auto& [turn, place] : {std::pair(1e-9, 0.015), std::pair(2.9e-9, 0.03), std::pair(1e-4, 0.03)}) {
     Pose pose;
@@ -328,8 +328,8 @@ TEST(FlatScenes, EdgesAreParallelWhileTheyDriftByLessThanTheyAreKnownTo) {
   }
 }
 
-/// Left to their triangles: ridges between the touch distance and twice it, and a ridge over two that go on in one line between
-/// other faces.
+/// Cases that are left to triangles: ridges between the touch distance and twice it, and a ridge
+/// over two ridges in one line between other faces.
 TEST(FlatScenes, EdgesAlongEdgesByTheirTriangles) {
   std::mt19937_64 random(13);
   const TriangleMesh ridge = make_wedge(0.05, 0.1, 0.05);
@@ -382,7 +382,7 @@ TEST(FlatScenes, TiltedBoxesAtAnyAngle) {
   }
 }
 
-/// A plate over its copy, walls over walls included, however finely both are cut.
+/// A plate over its copy, walls over walls included, for any number of triangles.
 TEST(FlatScenes, WorkDoesNotGrowWithTheTriangles) {
   const auto work_of = [](int cells) {
     const TriangleMesh plate = make_box({0.1, 0.1, 0.01}, {cells, cells, 1});
@@ -402,7 +402,7 @@ TEST(FlatScenes, WorkDoesNotGrowWithTheTriangles) {
   EXPECT_EQ(work_of(4), work_of(64));
 }
 
-/// A box behind a strip: over both borders, and over what is between them although that turns away.
+/// A box behind a strip, above both borders and above the face, which looks away.
 TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
   TriangleMesh strip;
   strip.vertices = {{-0.01, -0.1, 0.0}, {0.01, -0.1, 0.0}, {0.01, 0.1, 0.0}, {-0.01, 0.1, 0.0}};
@@ -417,7 +417,7 @@ TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
   EXPECT_GE(behind.found(), 20u);
 }
 
-/// From rounding to beyond what the meshes are known to: faces over faces, an edge over a face, edges along edges.
+/// From rounding to beyond the tolerance: faces over faces, edge over face, edges along edges.
 TEST(FlatScenes, TiltsFromRoundingToBeyondTheTolerance) {
   std::mt19937_64 random(12);
   const TriangleMesh table = make_box({0.3, 0.3, 0.1}, 4);
@@ -441,7 +441,7 @@ TEST(FlatScenes, TiltsFromRoundingToBeyondTheTolerance) {
     wedge.check(tilted(pose));
     wedges.check(tilted({Vec3(2e-4 * (uniform(random) - 0.5), 0.1 * (uniform(random) - 0.5), 0.05 + height),
                          Eigen::Quaterniond(over)}));
-    // Edges whose direction is at a border of the fixed one's cone, so that along it they come to lie over the face beside it.
+    // A direction at the border of the fixed edge's cone: along the edge it gets over a face.
     const double off = (uniform(random) < 0.5 ? -1.0 : 1.0) * std::pow(10.0, -8.0 + 4.0 * uniform(random));
     const double gap = std::pow(10.0, -6.0 + 3.0 * uniform(random));
     Pose aside = tilted(
@@ -455,7 +455,7 @@ TEST(FlatScenes, TiltsFromRoundingToBeyondTheTolerance) {
     EXPECT_GE(scene->found(), static_cast<std::size_t>(tilted_poses()) / 2);
 }
 
-/// Nearly touching, where rounding lets the truth accept a tilt that is clear at larger distances.
+/// Nearly touching, where rounding lets the truth accept a tilt that is clear at larger gaps.
 TEST(FlatScenes, TiltedBoxesThatNearlyTouch) {
   std::mt19937_64 random(9);
   const TriangleMesh box = make_box({0.1, 0.1, 0.1}, 3);
@@ -472,7 +472,7 @@ TEST(FlatScenes, TiltedBoxesThatNearlyTouch) {
   EXPECT_GT(boxes.found(), 100u);
 }
 
-/// The same of two faces that overlap in two places, of which one is within the touch distance and the other need not be.
+/// Two faces that overlap in two places, one within the touch distance, the other perhaps not.
 TEST(FlatScenes, TiltedBlocksThatNearlyTouchInOneOfTwoPlaces) {
   std::mt19937_64 random(10);
   const TriangleMesh block = make_l_block(0.1);
@@ -515,7 +515,7 @@ TEST(FlatScenes, BoxesInContact) {
 }
 
 TEST(FlatScenes, CostsNoMoreForFinerTessellation) {
-  // Test counts, not times: the same contact of the same shapes.
+  // Counts tests, not times: the same contact of the same shapes.
   std::array<WorkCounters, 2> work;
   std::array<LmdSet, 2> sets;
   for (std::size_t k = 0; k < 2; ++k) {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// PROOF.md and the code that it is about name each other.
+/// PROOF.md and the code name each other's lemmas.
 namespace lmdbench {
 namespace {
 
@@ -36,7 +36,7 @@ std::vector<int> lemmas_of_the_proof() {
   return lemmas;
 }
 
-/// Numbers that the code names: "PROOF.md, lemma 3", "PROOF.md, lemmas 13, 14 and 15".
+/// Numbers in the code: "PROOF.md, lemma 3", "PROOF.md, lemmas 13, 14 and 15".
 std::set<int> lemmas_of_the_code() {
   static const std::regex mention(R"(PROOF\.md,\s+(?:///?\s*)?lemmas?((?:\s|,|and|\d|///)+))"),
       number(R"(\d+)");

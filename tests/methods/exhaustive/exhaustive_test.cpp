@@ -65,7 +65,7 @@ TEST(Exhaustive, TwoBoxesEdgeToEdgeInParallelAreOneSegment) {
 }
 
 TEST(Exhaustive, CrossedWedgesAreOneEdgePair) {
-  // The upper wedge is turned upside down and by a quarter turn: the sharp edges cross at right angles.
+  // The upper wedge is upside down and turned by 90 degrees: the sharp edges cross at right angles.
   const Scene scene = make_scene(make_wedge(0.1, 0.2, 0.05), make_wedge(0.1, 0.2, 0.05), 0.02);
   const double top = 0.5 * bounding_box_diagonal(scene.fixed[0]->surface().mesh);
   Pose pose;
@@ -85,7 +85,7 @@ TEST(Exhaustive, CrossedWedgesAreOneEdgePair) {
 }
 
 TEST(Exhaustive, AReflexEdgeCarriesNothing) {
-  // A small sphere in the notch of the L sees both arms, not the edge between them.
+  // A small sphere in the notch of the L faces both arms, not the edge between them.
   const Scene scene = make_scene(make_sphere(0.002, 1), make_l_block(0.05), 0.012);
   int pairs = 0;
   for (double x = -0.024; x < 0.025; x += 0.006) {
@@ -97,7 +97,7 @@ TEST(Exhaustive, AReflexEdgeCarriesNothing) {
         const auto triangles = scene.fixed[0]->surface().adjacency.edge_triangles[lmd.feature_fixed.index];
         ASSERT_EQ(triangles.size(), 2u);
         const auto& normals = scene.fixed[0]->surface().face_normals;
-        // Convex or flat: the direction lies between the normals of the two faces.
+        // Convex or flat: the direction is between the normals of the two faces.
         const Vec3 bisector =
             normals[static_cast<std::size_t>(triangles[0])] + normals[static_cast<std::size_t>(triangles[1])];
         EXPECT_GT((-lmd.direction).dot(bisector.normalized()), 0.7);
@@ -107,7 +107,7 @@ TEST(Exhaustive, AReflexEdgeCarriesNothing) {
   EXPECT_GT(pairs, 10);
 }
 
-/// The definition, without the grid: every triangle pair, every corner of the incident triangles.
+/// The definition without the grid: every triangle pair, every corner of the incident triangles.
 TEST(Exhaustive, EqualsTheLiteralDefinition) {
   std::size_t total = 0;
   std::mt19937_64 random(5);
@@ -141,8 +141,8 @@ TEST(Exhaustive, EqualsTheLiteralDefinition) {
   EXPECT_GT(total, 20u);
 }
 
-/// What an LMD is, tested by sampling: no point of either surface near the pair's
-/// points is nearer to the other.
+/// Tests the definition by sampling: no point of either surface near the pair's points is nearer to
+/// the other surface.
 TEST(Exhaustive, NoNeighbouringPointIsNearer) {
   std::mt19937_64 random(6);
   const Scene scene = make_scene(make_blob(0.04, 0.01, 2), make_torus(0.05, 0.02, 20, 10), 0.03);
@@ -195,7 +195,7 @@ TEST(Exhaustive, TouchingSurfacesGiveOneContactWithoutDirection) {
 }
 
 TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
-  // From far below the tolerance of the first-order test to far above it: the whole overlap, then one corner.
+  // From far below the tolerance of the first-order test to far above: whole overlap to corner.
   const Scene scene = make_scene(make_box({0.06, 0.06, 0.06}, 2), make_box({0.3, 0.3, 0.01}, 5), 0.005);
   for (int step = 0; step <= 60; ++step) {
     const double tilt = 1e-11 * std::pow(1.15, step);
@@ -211,7 +211,7 @@ TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
   }
 }
 
-/// Of a fan round one vertex each box covers a good part of the whole: a cell for each would take memory without end.
+/// Each box of a fan round one vertex covers much of it: a cell for each would take all memory.
 TEST(FeatureGrid, LongBoxesTakeNoMoreThanTheirNumber) {
   TriangleMesh mesh;
   mesh.vertices.emplace_back(0.0, 0.0, 1.0);

@@ -125,7 +125,7 @@ std::string broken_promise(const FuzzScene& fuzz) {
       return complain("a distance is not that of its points");
     if (lmd.distance > fuzz.scene.cutoff + 1e-12) return complain("an LMD lies beyond the cutoff");
   }
-  // Distances that are equal but for their rounding may stand in either order.
+  // Distances that differ by rounding only may be in either order.
   const bool same = std::is_permutation(
       truth.begin(), truth.end(), certified.begin(), certified.end(), [](const Lmd& a, const Lmd& b) {
         return same_feature_pair(a, b) && a.intersecting == b.intersecting &&
@@ -134,7 +134,7 @@ std::string broken_promise(const FuzzScene& fuzz) {
   if (!same) return complain("certified is not exhaustive");
   for (const LmdSet& lmds : {truth, certified})
     if (!std::is_sorted(lmds.begin(), lmds.end(), lmd_less)) return complain("a set is not in its order");
-  // Normal cones say nothing of boundary edges, nor of triangles that intersect.
+  // Normal cones do not cover boundary edges, nor triangles that intersect.
   const auto sound = [](const Body& body) {
     const ValidityReport report = check_mesh(body.surface());
     return report.closed && report.manifold && report.degenerate_triangles == 0;

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-/// What any two small meshes at any pose must keep to, for the fuzzer and the test that replays its corpus.
+/// Promises for any two small meshes at any pose, for the fuzzer and the test of its corpus.
 namespace lmdbench::testing {
 
 struct FuzzScene {
@@ -18,14 +18,14 @@ struct FuzzScene {
   Pose X_WM;
 };
 
-/// Bytes: a kind and a size for each of two meshes, a cutoff, a translation and a rotation. Meshes are closed
-/// shapes whose vertices are moved on a coarse lattice, or soups of triangles on it, so that flat, parallel,
-/// duplicate and touching triangles are common. Nothing for too few bytes or meshes without triangles.
+/// Bytes: kind and size of two meshes, a cutoff, a translation, a rotation. Meshes are closed
+/// shapes with vertices on a coarse lattice, or triangle soups on it: flat, parallel, duplicate and
+/// touching triangles are common. Nothing for too few bytes or meshes without triangles.
 std::optional<FuzzScene> scene_from_bytes(std::span<const std::uint8_t> bytes);
 
-/// Empty, or what is broken: `certified` is `exhaustive`, both sets are in their order, every number is finite that
-/// must be, each LMD's distance is that of its points, and for closed manifold meshes that are apart the candidates of the
-/// improved algorithm without its visibility test hold a pair as near as the nearest LMD.
+/// Empty, or what is broken. `certified` is `exhaustive`, sets are sorted, numbers are finite, and
+/// distances are those of the points. For closed manifold meshes that are apart, the candidates of
+/// `improved` without visibility test include a pair as near as the nearest LMD.
 std::string broken_promise(const FuzzScene& fuzz);
 
 }  // namespace lmdbench::testing

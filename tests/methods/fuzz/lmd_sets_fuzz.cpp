@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// libFuzzer's entry: lmdbench_lmd_fuzz tests/methods/fuzz/corpus. Finds end up in the corpus,
-/// which the test LmdFuzzCorpus replays.
+/// libFuzzer's entry: lmdbench_lmd_fuzz tests/methods/fuzz/corpus. Finds go to the corpus, which
+/// the test LmdFuzzCorpus replays.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto fuzz = lmdbench::testing::scene_from_bytes({data, size});
   if (!fuzz) return 0;

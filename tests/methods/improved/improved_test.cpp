@@ -64,7 +64,7 @@ TEST_F(ImprovedTest, CandidatesHoldEveryTrueLmdWhereNothingIsCulledByVisibility)
   EXPECT_GT(count, 40u);
 }
 
-/// A finding that was measured (decision E6): no visibility policy is conservative, and culls cost recall.
+/// Decision E6, as measured: no visibility policy is conservative, and culling costs recall.
 TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
   on_poses(3, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
     LmdSet all, culled;
@@ -82,7 +82,7 @@ TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
   });
 }
 
-/// Boxes corner to corner: whole faces lie beside each other.
+/// Boxes corner to corner: whole faces are beside each other.
 TEST_F(ImprovedTest, EachVisibilityPolicyCullsOnCoarseMeshes) {
   const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
   Pose pose;
@@ -129,10 +129,10 @@ TEST_F(ImprovedTest, PublishedReductionKeepsASubsetWithTheNearestPair) {
     ASSERT_FALSE(candidates.empty());
     EXPECT_NEAR(candidates[0].distance, truth[0].distance, 1e-15);
   });
-  EXPECT_LT(kept * 4, before);  // the reduction is what it is there for
+  EXPECT_LT(kept * 4, before);  // a reduction worth its name
 }
 
-/// The finding behind decision E7: what the published rule loses is a matter of the order.
+/// Decision E7, as measured: which LMDs the published rule loses depends on the order.
 TEST_F(ImprovedTest, ThePublishedReductionLosesLmdsInAnOrderThatIgnoresDistance) {
   std::size_t total = 0, nearest_first = 0, by_index = 0;
   on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
@@ -188,7 +188,7 @@ TEST_F(ImprovedTest, TrackingFollowsAMotionToTheMinimaOfTheNewPose) {
     Exhaustive(scene).search(moved, truth, counters_);
     for (const Lmd& lmd : truth) {
       if (lmd.intersecting || lmd.distance > 0.9 * scene.cutoff)
-        continue;  // may have come into reach just now
+        continue;  // it may be within the cutoff only now
       ++total;
       if (holds(lmds, lmd)) ++followed;
     }
@@ -218,7 +218,7 @@ TEST_F(ImprovedTest, APlainCacheGivesTheSameSetsForTheSameWork) {
     LmdSet first, second;
     usual.search(pose, first, counters_);
     second = first;
-    for (int update = 0; update < 2; ++update) {  // what the first one left must be forgotten
+    for (int update = 0; update < 2; ++update) {  // the first update must leave nothing
       WorkCounters one, other;
       usual.track(pose, first, one);
       plain.track(pose, second, other);
@@ -229,7 +229,7 @@ TEST_F(ImprovedTest, APlainCacheGivesTheSameSetsForTheSameWork) {
   });
 }
 
-/// Decision E3: where meshes overlap, what faces away behind a triangle is rejected by the ablation alone.
+/// Decision E3: of overlapping meshes only the ablation rejects pairs that face away.
 TEST_F(ImprovedTest, AClampedSigmaRejectsAmongOverlappingSpheres) {
   const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
   Pose pose;
@@ -243,7 +243,7 @@ TEST_F(ImprovedTest, AClampedSigmaRejectsAmongOverlappingSpheres) {
   EXPECT_GT(clamped[Improved::Counter::REJECTED_G3], usual[Improved::Counter::REJECTED_G3]);
 }
 
-/// Decision E11.
+/// Decision E11: trackings in the global thread.
 TEST_F(ImprovedTest, SaysHowOftenItsSetIsTrackedInTheGlobalThread) {
   const Scene scene = make_scene(make_sphere(0.05, 1), make_sphere(0.05, 1), 0.01);
   ImprovedOptions options;
@@ -253,8 +253,8 @@ TEST_F(ImprovedTest, SaysHowOftenItsSetIsTrackedInTheGlobalThread) {
   EXPECT_EQ(Improved(scene, options).description().name, "improved");
 }
 
-/// Decision E2: the printed inequality of G3 keeps the wrong pairs. It shows where
-/// the leaves' spheres are apart.
+/// Decision E2: the printed inequality of G3 keeps the wrong pairs, as leaves with spheres apart
+/// show.
 TEST_F(ImprovedTest, LiteralG3LosesAlmostEverything) {
   std::mt19937_64 random(22);
   const Scene scene = make_scene(make_blob(0.04, 0.01, 4), make_blob(0.05, 0.012, 4), 0.03);
@@ -293,7 +293,7 @@ TEST_F(ImprovedTest, AContactKeepsItsLastDirection) {
   EXPECT_EQ(lmds[0].direction, apart);
 }
 
-/// A cone of 4 n triangles round its tip at the origin, below it; points on a square, so that no sine is needed.
+/// A cone of 4 n triangles below its tip at the origin; its base is a square, so it needs no sine.
 TriangleMesh hub(int n, double sign) {
   TriangleMesh mesh{.vertices = {Vec3::Zero()}, .triangles = {}};
   for (int side = 0; side < 4; ++side) {
@@ -308,7 +308,7 @@ TriangleMesh hub(int n, double sign) {
   return mesh;
 }
 
-/// L1 to L4 with the paper's cache, looking at every pair of triangles each time.
+/// L1 to L4 with the paper's cache; looks at every pair of triangles each time.
 LmdSet track_without_memory(const Scene& scene, const Pose& pose, LmdSet lmds, bool published,
                             std::uint64_t& cache_hits) {
   const RigidTransform X_WM(pose);
@@ -347,7 +347,7 @@ TEST_F(ImprovedTest, WhatIsRememberedOfTwoHubsIsWhatEveryWalkFinds) {
     LmdSet lmds;
     improved.search(pose, lmds, counters_);
     EXPECT_GT(lmds.size(), 100U);
-    // Of one update, not of the one before.
+    // The cache is of one update, not of the one before.
     for (const double height : {0.05, 0.06}) {
       pose.translation.z() = height;
       SCOPED_TRACE(height);
@@ -369,7 +369,7 @@ TEST_F(ImprovedTest, WhatIsRememberedOfTwoHubsIsWhatEveryWalkFinds) {
   }
 }
 
-/// 500 triangles each: 250,000 pairs, and about as many candidates, whose walks would look at 4e10 pairs.
+/// 500 triangles each: 250,000 pairs, about as many candidates; walks would visit 4e10 pairs.
 TEST_F(ImprovedTest, TwoHubsAreTrackedInTime) {
   const Scene scene = make_scene(hub(125, -1.0), hub(125, 1.0), 0.3);
   Pose pose;

@@ -52,7 +52,7 @@ TEST(DualTraversal, ItsPlacesTogetherVisitWhatItVisitsInItsOrder) {
   }
 }
 
-/// Everything of an LMD, bit by bit.
+/// Whether all fields of two LMDs have the same bits.
 bool same_bits(const Lmd& a, const Lmd& b) {
   return a.distance == b.distance && a.point_moving == b.point_moving && a.point_fixed == b.point_fixed &&
          a.direction == b.direction && a.feature_moving == b.feature_moving &&
@@ -70,7 +70,7 @@ TEST(ImprovedSearchThreads, FindTheSameSetInTheSameOrderForTheSameWork) {
     options.search_threads = threads;
     Improved team(scene, options);
     for (int sample = 0; sample < 6; ++sample) {
-      // Out of reach now and then: no place to go on from.
+      // One pose is beyond the cutoff: no results to start from.
       Pose pose = testing::grazing_pose(scene, 0.001, random);
       if (sample == 3) pose.translation *= 10.0;
       LmdSet expected, found;

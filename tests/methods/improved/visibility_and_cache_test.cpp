@@ -26,7 +26,7 @@ TEST(Visibility, FacingTrianglesSeeEachOtherWhereTheyOverlap) {
   for (const Visibility policy : {Visibility::VERTEX_NORMAL, Visibility::ORTHOGONAL}) {
     EXPECT_TRUE(see_each_other(facing_down(0.0, 1.0), facing_up(0.2), policy));
     EXPECT_FALSE(see_each_other(facing_down(1.5, 1.0), facing_up(0.2), policy));
-    EXPECT_TRUE(see_each_other(facing_down(1.2, 1.0), facing_up(0.2), policy));  // touch in one point
+    EXPECT_TRUE(see_each_other(facing_down(1.2, 1.0), facing_up(0.2), policy));  // they touch
   }
   EXPECT_TRUE(see_each_other(facing_down(1.5, 1.0), facing_up(0.2), Visibility::OFF));
 }
@@ -43,7 +43,7 @@ TEST(Visibility, SightTellsWhatThePreTestDecides) {
 }
 
 TEST(Visibility, ANormalThatPointsAwayCannotCull) {
-  // Back to back: no corner's normal meets the other plane, so nothing can be said (decision E6).
+  // Back to back: no corner's normal meets the other plane, so nothing is decided (decision E6).
   ShadedTriangle away = facing_up(0.0);
   for (Vec3& corner : away.corners) corner.z() += 1.0;
   ShadedTriangle below = facing_down(5.0, 0.0);
@@ -55,7 +55,7 @@ TEST(Visibility, SpreadingVertexNormalsWidenTheShadow) {
   ShadedTriangle seer = facing_down(1.3, 1.0);
   for (std::size_t k = 0; k < 3; ++k) seer.vertex_normals[k] = Vec3(-0.5, 0.0, -1.0).normalized();
   EXPECT_FALSE(see_each_other(facing_down(1.3, 1.0), facing_up(0.2), Visibility::VERTEX_NORMAL));
-  // The seer now looks sideways enough; the seen one still projects straight up and misses.
+  // The seer's normals are slanted enough; the seen triangle still projects straight up and misses.
   EXPECT_FALSE(see_each_other(seer, facing_up(0.2), Visibility::VERTEX_NORMAL));
   ShadedTriangle seen = facing_up(0.2);
   for (std::size_t k = 0; k < 3; ++k) seen.vertex_normals[k] = Vec3(0.5, 0.0, 1.0).normalized();
@@ -69,8 +69,8 @@ TEST(Visibility, IsSymmetric) {
                 see_each_other(facing_up(0.1), facing_down(x, 0.7), policy));
 }
 
-/// Two cubes corner to corner: all 36 triangle pairs round the two corners hold the LMD and an orthogonal
-/// projection culls every one of them (decision E6): the pre-test is not conservative on coarse meshes.
+/// Two cubes corner to corner: all 36 triangle pairs round the two corners hold the LMD; orthogonal
+/// projection culls them (decision E6). The pre-test is not conservative on coarse meshes.
 TEST(Visibility, AnOrthogonalProjectionCullsTwoCornersFaceToFace) {
   const Surface surface = build_surface(make_box({1.0, 1.0, 1.0}));
   const Vec3 offset(1.1, 1.1, 1.1);

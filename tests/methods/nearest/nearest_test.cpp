@@ -20,7 +20,7 @@ LmdSet search(Method& method, const Pose& pose) {
   return lmds;
 }
 
-/// A box of 0.2 m whose lower corner hangs `gap` over a plate's upper face at z = 0.05.
+/// A box of 0.2 m; its lowest corner is `gap` over a plate's upper face at z = 0.05.
 Scene corner_over_plate(double cutoff) {
   return testing::make_scene(make_box({0.2, 0.2, 0.2}, 1), make_box({1.0, 1.0, 0.1}, 1), cutoff);
 }
@@ -63,8 +63,8 @@ TEST(Nearest, ContactHasDistanceZeroAndNoDirectionOfItsOwn) {
   EXPECT_TRUE(lmds[0].direction.array().isNaN().all());
 }
 
-/// The first of the true set, with the same features, wherever the nearest pair is an LMD; along a motion, so
-/// that warm searches begin with the pair of a neighbouring frame.
+/// The nearest pair is the first LMD of the true set, with the same features, wherever it is an
+/// LMD. Along a motion: warm searches begin with the pair of a neighbouring frame.
 TEST(Nearest, IsTheNearestOfTheTrueSet) {
   const Scene scene = testing::make_scene(make_blob(0.5, 0.1, 3), make_torus(0.5, 0.2, 32, 16), 0.1);
   Nearest warm(scene), cold(scene, NearestOptions{.warm_start = false});
@@ -90,7 +90,7 @@ TEST(Nearest, IsTheNearestOfTheTrueSet) {
   }
 }
 
-/// A centimetre given in metres: without the scaling FCL overlooks faces and reports contact.
+/// A scene of a centimetre: without scaling FCL overlooks faces and reports contact.
 TEST(Nearest, SmallMeshesAreNoContact) {
   const Scene scene = testing::make_scene(make_blob(0.0005, 0.1, 4), make_blob(0.0005, 0.1, 4), 0.0001);
   Nearest nearest(scene);

@@ -23,8 +23,8 @@ Triangle triangle_of_size(std::mt19937_64& random, double size) {
           centre + size * testing::random_direction(random)};
 }
 
-/// Radius of the smallest disc about one feature point that reaches every point of the
-/// triangle: what 7x7 can lose.
+/// Largest distance of a point of the triangle from its feature points: the most by which 7x7
+/// overestimates.
 double covering_radius(const Triangle& t) {
   double radius = 0.0;
   for (int i = 0; i <= 40; ++i) {
@@ -35,7 +35,7 @@ double covering_radius(const Triangle& t) {
       radius = std::max(radius, nearest);
     }
   }
-  return radius * 1.05;  // the samples miss the worst point by less than this
+  return radius * 1.05;  // the samples miss the farthest point by less
 }
 
 TEST(FeaturePoints, OverestimateTheDistanceByNoMoreThanTheCoveringRadii) {
@@ -50,7 +50,7 @@ TEST(FeaturePoints, OverestimateTheDistanceByNoMoreThanTheCoveringRadii) {
   }
 }
 
-/// Each point lies on the part that it stands for, and more points overestimate less.
+/// Each point is on its feature, and more points overestimate less.
 template <std::size_t N>
 double checked_overestimate(const Triangle& a, const Triangle& b) {
   const FeaturePoints<N> points = feature_points<N>(a);
@@ -89,7 +89,7 @@ TEST(FeaturePoints, MoreOfThemOverestimateLess) {
   EXPECT_GT(sums[2], 1.2 * sums[3]);
 }
 
-/// Both triangles of an edge must have the same bits there, or an LMD would flicker between them.
+/// Both triangles of an edge need the same bits there; otherwise an LMD would switch between them.
 TEST(FeaturePoints, OfAnEdgeAreTheSameFromBothSides) {
   std::mt19937_64 random(5);
   const Triangle a = triangle_of_size(random, 0.4);
@@ -190,7 +190,7 @@ TEST_F(OriginalTest, ATwoSidedLineConeLetsMoreNodePairsThrough) {
   EXPECT_GT(all_two_sided, all_one_sided) << "pairs whose normals face away from each other pass, too";
 }
 
-/// Decision E13.
+/// Decision E13: a vertex pair is one LMD.
 TEST_F(OriginalTest, AVertexPairIsOneLmd) {
   const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
   Pose pose;
@@ -201,7 +201,7 @@ TEST_F(OriginalTest, AVertexPairIsOneLmd) {
   EXPECT_GT(work_[Original::Counter::DROPPED_DUPLICATES], 0u);
 }
 
-/// The defect that the paper sets out to mend: over a large triangle the nearest feature points are far off.
+/// The defect that the paper mends: on a large triangle the nearest feature points are far away.
 TEST_F(OriginalTest, MissesWhatALargeTriangleHides) {
   const Scene scene = make_scene(make_sphere(0.002, 1), make_box({0.1, 0.1, 0.1}), 0.002);
   Pose pose;
@@ -212,10 +212,10 @@ TEST_F(OriginalTest, MissesWhatALargeTriangleHides) {
   EXPECT_TRUE(search(scene, pose, 1.0).empty());
 }
 
-/// Fig. 5 (a) read both ways. Two plates of the same triangles, one above the other: a pair of face centres that a
-/// sideways motion has left behind finds a nearer pair only across an edge.
+/// Fig. 5 (a) in both readings. Two plates of the same triangles, one above the other: after a
+/// sideways motion a pair of face centres finds a nearer pair only across an edge.
 TEST_F(OriginalTest, APairOfFaceCentresMovesOnOnlyWithItsEdgeNeighbours) {
-  TriangleMesh plate;  // a strip of triangles in the plane z = 0, normals up
+  TriangleMesh plate;  // triangles in the plane z = 0, normals up
   constexpr int LENGTH = 12;
   for (int i = 0; i < LENGTH; ++i) plate.vertices.emplace_back(0.5 * i, i % 2 == 0 ? 0.0 : 0.9, 0.0);
   for (int i = 0; i + 2 < LENGTH; ++i)

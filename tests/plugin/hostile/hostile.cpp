@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Plugins that do what plugins must not, each this file with another KIND. All of them answer well now and then, so that what becomes of
-// their other frames shows. GOOD and PUSHES do nothing wrong.
+// Plugins that break rules, each this file with another KIND. All have some good frames, which
+// shows the fate of the others. GOOD and PUSHES do nothing wrong.
 #include <lmdbench/plugin/lmdbench_method.h>
 
 #include <unistd.h>
@@ -38,7 +38,7 @@
 namespace {
 
 struct Instance {
-  std::vector<double> a, b;  // corner 0 of the first triangles
+  std::vector<double> a, b;  // corner 0 of each triangle
   double origin[3];          // of A at the last pose
   std::uint64_t calls = 0;
 };
@@ -70,7 +70,7 @@ std::int32_t create(const lmdbench_mesh* a, const lmdbench_mesh* b, double /*cut
     constexpr std::size_t GIB = std::size_t{1} << 30;
     auto* memory = static_cast<char*>(std::malloc(GIB));
     if (memory == nullptr) std::abort();
-    memory[gib] = 1;  // the whole of it would take the machine's memory where nothing limits it
+    memory[gib] = 1;  // writing all could take the machine's memory
   }
 #elif KIND == WRITE_PAST_END
   std::memset(contacts + capacity, 0, sizeof(lmdbench_contact));
@@ -89,7 +89,7 @@ std::int32_t create(const lmdbench_mesh* a, const lmdbench_mesh* b, double /*cut
 #endif
 }
 
-/// The nearest pair of the corners, or all of them, nearest first.
+/// The nearest pair of the corners, or all pairs, nearest first.
 std::int32_t search(void* instance, const double* X, lmdbench_contact* contacts, std::uint64_t capacity,
                     std::uint64_t* needed) {
   auto& self = *static_cast<Instance*>(instance);

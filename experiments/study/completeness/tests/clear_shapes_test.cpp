@@ -41,14 +41,13 @@ std::array<double, 6> place_of(const PartsScene& flat, const Pose& pose, const L
   return place;
 }
 
-/// Some sides of a gear meet at so small an angle that an import leaves them as they are
-/// (LARGEST_MOVE): a side of two triangles is two regions.
+/// Some sides of a gear meet at so small an angle that an import does not move their vertices
+/// (LARGEST_MOVE): a side of two triangles stays two regions.
 bool has_its_planes_apart(const std::string& pair) {
   return pair.find("gear") == std::string::npos;
 }
 
-/// How far the contacts of one set are from those of another one, at worst [m]; infinite where they
-/// are not as many.
+/// The largest distance between contacts of the two sets [m]; infinite where their numbers differ.
 double farthest_apart(const PartsScene& one, const PartsScene& other, std::size_t pose) {
   const LmdSet a = truth_of(one, one.poses[pose]), b = truth_of(other, other.poses[pose]);
   if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
@@ -68,7 +67,7 @@ double farthest_apart(const PartsScene& one, const PartsScene& other, std::size_
 }
 
 TEST(ClearShapes, HaveTheSameContactsWhateverTheirCoordinates) {
-  // The design is the same, so are the contacts: those of the design are exact.
+  // The design is the same, so the contacts are too; those of the design are exact.
   std::size_t poses = 0, faces = 0;
   for (const PartsKind& kind : parts::parts_kinds(Generator::CLEAR_SHAPES)) {
     for (const std::size_t index : {0u, 2u, 3u}) {

@@ -25,14 +25,14 @@ TEST(FarScenes, AreSmallAndFarAway) {
     const Vec3 vertex_M = far.scene.moving->surface().mesh.vertices.front();
     const Vec3 vertex_W = far.scene.fixed[0]->surface().mesh.vertices.front();
     EXPECT_NEAR(std::max(vertex_M.norm(), vertex_W.norm()), 1.0, 1e-2);
-    // The meshes are near each other, wherever that is.
+    // The meshes are near each other, wherever they are.
     const Vec3 moved_W = far.poses.front().rotation * vertex_M + far.poses.front().translation;
     EXPECT_LT((moved_W - vertex_W).norm(), 200.0 * far.diagonal);
   }
 }
 
-/// Scenes of which `certified` missed an LMD, or `exhaustive` did, when they worked in the world's coordinates:
-/// there the kernel takes a face for its edge and an edge's cone for empty.
+/// In these scenes `certified` or `exhaustive` missed an LMD when it worked in world coordinates:
+/// there the kernel takes a face for its edge, or an edge's cone seems empty.
 TEST(FarScenes, AreSearchedWithoutLossWhereRoundingOnceDecided) {
   std::size_t lmds = 0;
   std::string wrong;

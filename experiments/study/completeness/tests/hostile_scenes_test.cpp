@@ -64,7 +64,7 @@ TEST(HostileScenes, AreSearchedWithoutLoss) {
 }
 
 TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {
-  // Squashed meshes: pieces of 1e-9 of the size, far from each other, so that the middle is as good as the shares of their lengths.
+  // Squashed meshes share parts of 1e-9 of the size, far from each other: any middle is right.
   const GeneratedScene hostile = make_hostile_scene(Motion::NONE, 9141, 290);
   Certified certified(hostile.scene);
   Exhaustive exhaustive(hostile.scene);

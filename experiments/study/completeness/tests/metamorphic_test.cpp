@@ -7,7 +7,7 @@
 
 #include <string>
 
-/// Nothing that leaves the shapes and their places alone changes the answer.
+/// A change that keeps shapes and places keeps the answer.
 namespace lmdbench::completeness {
 namespace {
 
@@ -46,7 +46,7 @@ TEST(Metamorphic, ComparesCountsAndDistances) {
 
 TEST(Metamorphic, NamesWhatTouchesAndWhatLiesAtTheCutoff) {
   LmdSet one = at_distances({0.0, 0.5}), two = at_distances({0.0, 0.0, 0.5});
-  // Contacts at 0 are told apart where nothing intersects.
+  // Without intersections, contacts at distance 0 are compared one by one.
   EXPECT_TRUE(difference(one, two).differs);
   two[0].intersecting = two[1].intersecting = true;
   EXPECT_FALSE(difference(one, two).differs);
@@ -59,7 +59,7 @@ TEST(Metamorphic, NamesWhatTouchesAndWhatLiesAtTheCutoff) {
   EXPECT_TRUE(difference(at_distances({0.5}), at_distances({0.5, 0.7})).differs);
 }
 
-/// The scenes that a short test looks at; a table over more is lmdbench-study metamorphic.
+/// Seed of the scenes of this short test; lmdbench-study metamorphic looks at more.
 constexpr std::uint64_t SEED = 3;
 
 TEST(Metamorphic, ChangesLeaveShapesAlone) {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-/// Machine parts on and in each other: `certified` has the sets of `exhaustive`, and the cut into triangles does not show.
+/// Machine parts: `certified` has the sets of `exhaustive`, which do not depend on the cut.
 namespace lmdbench::completeness {
 namespace {
 
@@ -19,7 +19,7 @@ using parts::PartsChoice;
 using parts::PartsKind;
 using parts::PoseFamily;
 
-/// Every variant of `certified` has the set of `exhaustive`, which is returned.
+/// Expects that every variant of `certified` has the set of `exhaustive`, and returns it.
 LmdSet expect_same_sets(const Scene& scene, double diagonal, const Pose& X_WM) {
   LmdSet truth, set;
   WorkCounters counters;
@@ -76,7 +76,7 @@ TEST(PartsStudy, ComparesContactsByKindAndPlace) {
   EXPECT_TRUE(same_contacts({one, inside}, {one}, 1.0)) << "no verdict";
 }
 
-/// Three by three columns, those solid whose bits are set, a side of the middle ones a quarter.
+/// Three by three columns; those with a set bit are solid; the middle ones are 0.25 m wide.
 std::shared_ptr<const Body> nine_columns(unsigned bits) {
   const double lines[] = {-0.5, -0.125, 0.125, 0.5};
   parts::PrismComplex solid({0.0, 0.25});
@@ -86,10 +86,10 @@ std::shared_ptr<const Body> nine_columns(unsigned bits) {
   return std::make_shared<const Body>("columns", build_surface(solid.mesh()));
 }
 
-// All of these were wrong while faces were decided triangle by triangle.
+// All of these fail where faces are decided triangle by triangle.
 
 TEST(PartsStudy, ThirteenColumnsAreRight) {
-  // A small pair whose contact has its point elsewhere (by .11).
+  // A small pair whose contact point was wrong by 0.11.
   const Scene scene = {nine_columns(470), {nine_columns(446)}, 0.04};
   expect_same_sets(scene, 1.0,
                    {Vec3(-0.171875, 0.40625, 0.2578125),
@@ -97,14 +97,14 @@ TEST(PartsStudy, ThirteenColumnsAreRight) {
 }
 
 TEST(PartsStudy, PosesThatWereFoundAreRight) {
-  // Points elsewhere, one contact as two, features of other pieces: exact faces, no tilt.
+  // Wrong points, one contact as two, features of other regions: exact faces, no tilt.
   expect_right({"slit plate on ring", Coordinates::EXACT, 2, 2},
                {Vec3(-0.375, 0.25, 0.12500008646327307),
                 Eigen::Quaterniond(0.98843748132736087, 0, 0, 0.15162897317868759)});
   expect_right({"sprocket on ratchet", Coordinates::EXACT, 2, 3},
                {Vec3(0.11310026956859531, -0.49043857495653975, 0.15149278709298175),
                 Eigen::Quaterniond(0.155608650186046, 0, 0, 0.9878187829694659)});
-  // Borders a few 1e-9 over each other.
+  // Borders overlap by a few 1e-9.
   expect_right({"egg crate on egg crate", Coordinates::EXACT, 2, 2},
                {Vec3(-0.24999999854546159, 0.031250006213938947, 0.93811418878956376),
                 Eigen::Quaterniond(1, 0, 0, 0)});
@@ -118,7 +118,7 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
   expect_right({"slit plate on ring", Coordinates::RECUT, 2, 2},
                {Vec3(-0.09375, -0.5, 0.12616947721437108),
                 Eigen::Quaterniond(1, 2.4523623328817474e-09, -8.1833800028043225e-09, 0)});
-  // Turned.
+  // Turned coordinates.
   expect_right({"slit plate on slit plate", Coordinates::TURNED, 2, 3},
                {Vec3(-0.01610029255386531, 0.96690611001602544, 0.38358265889321319),
                 Eigen::Quaterniond(0.23783725258167454, 0.93062878973507845, 0.15123365061868471,
@@ -127,7 +127,7 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
                {Vec3(0.071388623231602499, -0.23124413973568475, -0.39823987806466504),
                 Eigen::Quaterniond(0.68819095895472615, 0.16245984792016782, 0.16245984990145354,
                                    0.68819096114140266)});
-  // Parallel edges that touch to rounding: what is between them has no direction that a cone of a hierarchy holds.
+  // Parallel edges that touch up to rounding: their difference has no direction for a cone.
   expect_right({"retaining ring on gear", Coordinates::EXACT, 108, 27},
                {Vec3(-0.20479963923571631, -0.23941062268568203, 0.12499919112054809),
                 Eigen::Quaterniond(1, 0, 1.17883980572663e-13, 0)});
@@ -139,7 +139,7 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
                {Vec3(-0.13922516500732249, -0.029131019384604662, 0.58187167550989116),
                 Eigen::Quaterniond(-0.47087357376304401, 0.80848839156785568, 0.066390526035828706,
                                    0.34672308299899318)});
-  // Borders 1e-13 to 1e-11 over each other: segments of one length between edges, and between an edge and either face.
+  // Borders overlap by 1e-13 to 1e-11: segments of one length between edges, edges and faces.
   expect_right({"egg crate on egg crate", Coordinates::RECUT, 501, 30},
                {Vec3(0.57812499998498812, 0.3105834925951006, 0.57821771595748772),
                 Eigen::Quaterniond(-8.7646386605429999e-14, 0, 0, 1)});
@@ -149,17 +149,17 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
   expect_right({"half pipe on rack", Coordinates::RECUT, 501, 30},
                {Vec3(-0.15437808873808648, -1.0000000000009441, 0.65403422037168435),
                 Eigen::Quaterniond(3.5759655836946568e-11, -0, -0, -1)});
-  // Rounded, nearer than the planar tolerance.
+  // Rounded, and nearer than the planar tolerance.
   expect_right({"star prism on polycube", Coordinates::ROUNDED, 1, 9},
                {Vec3(-0.074400323817917446, 0.92235974455194869, 1.4108620553268474),
                 Eigen::Quaterniond(0.24476040192141804, -0.47076035073133565, 0.22470651031198569,
                                    0.81730489292573394)});
 }
 
-/// Share of poses at which the cut into triangles may show: overlaps as narrow as the tolerance, whose middle rounding moves by 1e-8.
+/// Share of poses where the cut may show: overlaps as narrow as the tolerance move by 1e-8.
 constexpr double MOST_THAT_SHOW_CUT = 0.002;
 
-/// LMDBENCH_PARTS_POSES of each kind in each kind of coordinates; without it one scene a kind.
+/// LMDBENCH_PARTS_POSES poses of each kind in each kind of coordinates; unset: one scene a kind.
 TEST(PartsStudy, FindsNothingWrong) {
   const char* const wanted = std::getenv("LMDBENCH_PARTS_POSES");
   PartsStudy study;

@@ -49,7 +49,7 @@ TEST(Piles, AreMeasuredInEveryMotion) {
   PileChoice choice;
   choice.counts = {10, 40};
   choice.subdivisions = 2;
-  choice.cutoff = 0.005;  // what coarse spheres' faces are nearer to the centre than their corners is less
+  choice.cutoff = 0.005;  // coarse faces are nearer to the centre than corners
   choice.looseness = 0.1;
   choice.stirring_speed = 1.0;
   choice.frames = 60;
@@ -61,7 +61,7 @@ TEST(Piles, AreMeasuredInEveryMotion) {
       EXPECT_EQ(row.triangles, 320u);
       ASSERT_EQ(row.seconds.size(), 60u);
       EXPECT_GT(row.seconds_per_contact_pair(), 0.0) << to_string(motion);
-      EXPECT_GE(row.searched, row.lmds);  // spheres have one LMD
+      EXPECT_GE(row.searched, row.lmds);  // a sphere has one LMD
       EXPECT_GT(row.methods, 0u);
       EXPECT_GT(row.bytes, 0.0);
       EXPECT_EQ(row.frames_above(1e9), 0u);
@@ -69,7 +69,7 @@ TEST(Piles, AreMeasuredInEveryMotion) {
     }
     const std::vector<std::size_t>& pairs = rows[1].contact_pairs;
     if (motion == PileMotion::JOSTLING) {
-      EXPECT_GT(pairs.front(), 60u);  // each with three others and more
+      EXPECT_GT(pairs.front(), 60u);  // each has three others and more
       EXPECT_EQ(rows[1].anchored, 0.0);
     }
     if (motion == PileMotion::SETTLING) {
@@ -118,7 +118,7 @@ TEST(Crowd, CostsAreMeasuredForEverySize) {
         EXPECT_LE(row.queries, 0.05);
       }
     }
-    // The work of the contact does not depend on the others.
+    // The work of the contact does not depend on the other instances.
     EXPECT_NEAR(rows[1].node_pairs, rows[2].node_pairs, 1e-9 + (frames == Frames::TELEPORT ? 1e9 : 0.0));
   }
   for (const PreparationRow& row : measure_preparation(mesh, mesh, 0.05, choice)) EXPECT_GT(row.bytes, 0.0);

@@ -44,7 +44,7 @@ TEST(FormedShapes, ThatAreMatesFillEachOther) {
     const Mates turned = random_turned_mates(random), relief = random_relief_mates(random);
     for (const TriangleMesh* mesh : {&turned.inner, &turned.outer, &relief.inner, &relief.outer})
       expect_solid(*mesh);
-    // Every corner of the inner one is one of the outer one, but for those of the lid, and of the axis.
+    // Every corner of the inner one is one of the outer one, except those of lid and axis.
     const auto shared = [](const Mates& mates) {
       std::size_t count = 0;
       for (const Vec3& p : mates.inner.vertices)

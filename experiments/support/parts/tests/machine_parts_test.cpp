@@ -15,7 +15,7 @@
 namespace lmdbench::parts {
 namespace {
 
-/// Vertices that lie inside edges that do not hold them: T-junctions, within a rounding.
+/// T-junctions: vertices inside edges, within a rounding, that are no ends of them.
 std::size_t t_junctions(const Surface& surface) {
   std::size_t count = 0;
   for (const auto& ends : surface.adjacency.edges) {

@@ -14,7 +14,7 @@
 namespace lmdbench::parts {
 namespace {
 
-/// Faces, edges and corners that meet.
+/// Numbers of meetings of faces, edges and corners.
 std::array<std::size_t, 3> meetings_of(std::string_view drawing) {
   std::array<std::size_t, 3> counts{};
   const RestDrawing parts(drawing);
@@ -75,7 +75,7 @@ TEST(RestFits, DependOnTheirNumbersAlone) {
 }
 
 TEST(RestFits, HaveTheirGaps) {
-  // Planes of both parts at a place, found by their normals in the world, are the gap apart.
+  // Both parts' planes at a place, found by their world normals, are the gap apart.
   for (const RestFit& fit : rest_fits()) {
     const RestScene scene = make_rest_scene(fit, 3, 1);
     if (scene.single_precision) continue;

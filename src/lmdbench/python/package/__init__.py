@@ -37,8 +37,8 @@ __all__ = ["Agreement", "EnvironmentError", "Error", "FeatureKind", "Forces", "I
            "Search", "UsageError", "agreement", "forces", "method_names", "open_result", "open_sweep", "query", "read_tum",
            "truth"]
 
-#: Of a set: distance (m), point_moving and point_fixed (3, m), direction (3, from the moving to the fixed point),
-#: feature_moving and feature_fixed (kind: a FeatureKind, index), fixed_body (which of several fixed meshes), intersecting.
+#: Of a set: distance (m), point_moving, point_fixed (3, m), direction (3, moving to fixed point),
+#: feature_moving, feature_fixed (kind: a FeatureKind, index), fixed_body (its mesh), intersecting.
 LMD_DTYPE: np.dtype = _lmdbench.LMD_DTYPE
 
 FileName = Union[str, "os.PathLike[str]"]

@@ -17,7 +17,7 @@ namespace {
 
 using testing::shapes;
 
-/// A fan round vertex 0 whose other vertices are at these heights.
+/// A fan round vertex 0; the other vertices have these heights.
 Surface fan(const std::vector<double>& heights) {
   TriangleMesh mesh;
   mesh.vertices.push_back(Vec3::Zero());

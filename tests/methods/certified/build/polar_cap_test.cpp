@@ -11,7 +11,7 @@
 namespace lmdbench {
 namespace {
 
-/// A vertex at the origin with so many triangles round it; its neighbours lie `rise(turn)` above it.
+/// A vertex at the origin with `count` triangles; its neighbours are `rise(turn)` above it.
 template <typename Rise>
 Surface hub(std::int32_t count, Rise&& rise) {
   TriangleMesh mesh;
@@ -28,7 +28,7 @@ constexpr FeatureId HUB{FeatureKind::VERTEX, 0};
 
 TEST(PolarCapOfAHub, IsThatOfTheRoundCone) {
   for (const double slope : {0.01, 0.3, 1.0, 5.0}) {
-    const double half_angle = std::atan(slope);  // of the cone of directions, round z
+    const double half_angle = std::atan(slope);  // of the cone of directions round z
     for (const std::int32_t count : {16, 128, 129, 500, 4000}) {
       const Surface peak = hub(count, [&](double) { return -slope; });
       const auto cap = polar_cap(peak, HUB);
@@ -38,7 +38,7 @@ TEST(PolarCapOfAHub, IsThatOfTheRoundCone) {
       const double width = std::atan2(cap->sine, cap->cosine);
       const double off = std::acos(std::min(1.0, cap->axis.z()));
       EXPECT_GE(width - off, half_angle) << "holds the whole cone; " << slope << ", " << count;
-      // A polygon of 16 corners is that much wider than its circle, one of 128 a sixty-fourth of that.
+      // A circumscribed polygon of 16 corners is that much wider; one of 128 a sixty-fourth of it.
       EXPECT_LE(std::tan(width), std::tan(half_angle) / std::cos(M_PI / 16) * 1.01 + 1e-5) << count;
     }
   }
@@ -65,7 +65,7 @@ TEST(PolarCapOfAHub, TakesTimeLinearInItsTriangles) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   seconds(1000);
-  // 20,000 took hours when the work was cubic; a busy machine may take ten times the usual 10 ms.
+  // A cubic method takes hours for 20,000; a busy machine may take ten times the usual 10 ms.
   EXPECT_LT(seconds(20000), 2.0);
 }
 

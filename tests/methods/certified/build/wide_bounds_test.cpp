@@ -29,7 +29,7 @@ TEST(WideBounds, ConesAreNearlyTheSmallestInEveryLane) {
     for (std::size_t lane = 0; lane < WIDE_WIDTH; ++lane) {
       const Vec3 middle = random_direction(random);
       const double spread = uniform(random);
-      // Lanes of different sizes: the shorter ones repeat their last.
+      // Lanes of different sizes: shorter ones repeat their last direction.
       const std::size_t size = lane % 2 == 0 ? SIZE : 2 + trial % (SIZE - 2);
       for (std::size_t k = 0; k < SIZE; ++k) {
         if (k < size) directions[lane].push_back((middle + spread * random_direction(random)).normalized());
@@ -51,7 +51,7 @@ TEST(WideBounds, ConesAreNearlyTheSmallestInEveryLane) {
 }
 
 TEST(WideBounds, ConesCoverWideCaps) {
-  // One wide cap and a narrow one: the axis of the smallest cone lies far from the mean of theirs.
+  // A wide cap and narrow ones: the axis of the smallest cone is far from the mean of their axes.
   LaneCaps caps;
   caps.resize(2);
   const Vec3 narrow(0.0, 0.6, 0.8);
@@ -82,7 +82,7 @@ TEST(WideBounds, CentresAreNearlyThoseOfTheSmallestSpheres) {
         points.set(k, lane, all[lane].back());
       }
     }
-    // Every second lane has the axis z: its centre halves the extent along it.
+    // Every second lane has the axis z: its centre is in the middle of its extent along z.
     LaneVectors axes{}, centres{};
     for (std::size_t lane = 0; lane < WIDE_WIDTH; lane += 2) axes.z[lane] = 1.0F;
     find_lane_centres(points, axes, STEPS, centres);

@@ -18,11 +18,11 @@
 namespace lmdbench {
 namespace {
 
-/// Stops at the first condition that fails by more than a margin, and says its name.
+/// Stops at the first condition that fails by more than a margin, and keeps its name.
 class Recorder {
  public:
-  /// @param touch  Directions of what is nearer are not asked about. Without a margin pairs of points nearer than half of it, and
-  ///               lines that are nearly parallel, fail.
+  /// @param touch  Directions of nearer pairs are not tested. Without a margin, pairs nearer than
+  /// half of it and nearly parallel lines fail.
   Recorder(double reach, double length, double sine, double touch)
       : reach_(reach), length_(length), sine_(sine), touch_(touch) {}
 
@@ -56,7 +56,7 @@ class Recorder {
   }
   bool feet_on(const Crossing& x) {
     const double beyond_a = x.a.beyond(x.s), beyond_b = x.b.beyond(x.t);
-    // Which of two that are as far counts is open.
+    // If both feet are equally far outside, either may count.
     const double unit = std::abs(beyond_a - beyond_b) > 1e-5 ? 1.0 : std::numeric_limits<double>::quiet_NaN();
     return holds("feet_on", -x.sine * std::max(beyond_a, beyond_b), length_, unit);
   }
@@ -103,9 +103,9 @@ Recorder recorded(const ShapePair& pair, const FeatureId& f, const FeatureId& g,
   return recorder;
 }
 
-/// What the definition accepts meets each condition to less than any margin of the filter, and what the filter rejects fails some
-/// condition: of all kinds of pairs, and each condition for some of them. By how much it fails, less the margin, is the slack of the
-/// certificate, and how that changes its gradient.
+/// Pairs that the definition accepts pass each condition with any margin of the filter; rejected
+/// pairs fail one: for all kinds of pairs, and each condition for some. The failure less the margin
+/// is the certificate's slack, and its change with the motion is the gradient.
 TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
   std::mt19937_64 random(1);
   std::map<std::string, std::size_t> rejected, moved;
@@ -130,7 +130,7 @@ TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
                        std::to_string(s) + " pose " + std::to_string(k));
           ContactSet set;
           decide(pair, f, g, set);
-          // Corners nearer than touch to corners and chains are found by the triangles that touch.
+          // Corners nearer than `touch` to corners and chains are left to the triangles that touch.
           const auto is_next_to_touch = [&](const Contact& c) {
             return c.distance < touch && c.moving.kind != FeatureKind::FACE &&
                    c.fixed.kind != FeatureKind::FACE &&
@@ -147,20 +147,20 @@ TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
           const Recorder before = recorded(pair, f, g, 0.0, 0.0, touch);
           EXPECT_NE(before.failed, "");
           ++rejected[before.failed];
-          // The filter's may be another condition that fails, by more.
+          // The filter may name another condition that fails by more.
           const bool is_same = std::abs(answer.certificate.slack + before.value + 2.0 * touch) <= 1e-9;
           if (!is_same || before.value > -1e-4 || random() % 8 != 0) continue;
           Pose after = pose;
           const Vec3 way = 1e-6 * testing::random_direction(random);
           after.translation += way;
           const Recorder there = recorded(scene.at(after), f, g, 0.0, 0.0, touch);
-          // Else another condition fails first there.
+          // Otherwise another condition fails first after the motion.
           if (there.failed == before.failed && std::abs(there.value - before.value) < 1e-5) {
             EXPECT_NEAR(there.value - before.value, answer.certificate.gradient.dot(way), 1e-10)
                 << before.failed << ' ' << before.value;
             ++moved[before.failed];
           }
-          scene.at(pose);  // `pair` is of it again.
+          scene.at(pose);  // `pair` is for `pose` again.
         }
     }
   }

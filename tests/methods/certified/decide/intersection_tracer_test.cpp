@@ -54,7 +54,7 @@ void collect_piercings(const Triangle& t, const Triangle& s, std::vector<ExactPo
   }
 }
 
-/// Sum over all pairs of triangles of the length that they share, in exact arithmetic but for the roots.
+/// Sum over all pairs of triangles of their common length, in exact arithmetic but for the roots.
 double exact_length(const Scene& scene, const Pose& pose) {
   const RigidTransform X_WM(pose);
   Wide sum = 0;
@@ -130,7 +130,7 @@ TEST(IntersectionTracer, ClosedMeshesMeetInClosedCurvesOfTheExactLength) {
 }
 
 TEST(IntersectionTracer, TwoCubesMeetInAHexagon) {
-  // Corner in corner by (a, b, c): the curve runs along the three faces of either.
+  // A corner inside a corner by (a, b, c): the curve runs along three faces of each cube.
   const Scene scene = testing::make_scene(make_box({1, 1, 1}, 3), make_box({1, 1, 1}, 4), 0.05);
   IntersectionTracer tracer(scene);
   const double a = 0.31, b = 0.27, c = 0.23;
@@ -150,7 +150,7 @@ TEST(IntersectionTracer, WhatOnlyTouchesIsClosedToo) {
     const Pose pose = at(by);
     expect_closed_on_both(scene, pose, tracer.trace(pose));
   }
-  // Flush sides: the step takes the moving cube up and aside, and what is left is the outline of the overlap.
+  // Flush sides: the tracer moves the moving cube up and aside; the outline of the overlap is left.
   const std::vector<IntersectionPolyline>& lines = tracer.trace(at({0.5, 0.5, 0.0}));
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_NEAR(lines[0].length(), 2.0 * (0.5 + 0.5 + 1.0), 1e-12);

@@ -51,7 +51,7 @@ TEST(ClearGap, IsTheGapAlongItsAxisAndNoMoreThanTheDistance) {
     ASSERT_NEAR(gap_along(found.axis, a, b), found.gap, 1e-12) << i << ": from a towards b";
   }
   EXPECT_GT(together, 1000u) << "or the bound is never put to the test";
-  // Disjoint convex bodies have a separating axis among those tried, with a gap of at least a part of the distance.
+  // One of the tried axes separates disjoint triangles, by a good part of their distance.
   EXPECT_GT(clear, apart * 9 / 10);
 }
 
@@ -66,7 +66,7 @@ TEST(ClearGap, EveryAxisFamilySeparates) {
   EXPECT_DOUBLE_EQ(clear_gap(flat, Vec3::UnitZ(), above, Vec3::Zero(), MARGIN).gap, 0.5) << "a's plane alone";
   EXPECT_DOUBLE_EQ(clear_gap(flat, Vec3::Zero(), above, Vec3::UnitZ(), MARGIN).gap, 0.5) << "b's plane alone";
   EXPECT_DOUBLE_EQ(clear_gap(above, Vec3::UnitZ(), flat, Vec3::UnitZ(), MARGIN).axis.z(), -1.0);
-  // Crossed edges: a's edge along x at height 0, b's along y above it, both planes cut the other triangle.
+  // Crossed edges: a's along x at height 0, b's along y above; both planes cut the other triangle.
   const Triangle low{Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, 0.2, -2)};
   const Triangle high{Vec3(0, -1, 0.1), Vec3(0, 1, 0.1), Vec3(0.2, 0, 2)};
   const ClearGap crossed = clear_gap(low, unit_normal(low), high, unit_normal(high), MARGIN);

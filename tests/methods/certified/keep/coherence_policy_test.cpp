@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t KEPT = 1000, MANY = 500, FEW = 100;
 
-/// Frames for which the policy keeps nothing from now on.
+/// Number of frames, from now on, in which the policy keeps nothing.
 int pause_of(CoherencePolicy& policy) {
   int pause = 0;
   while (!policy.keep()) ++pause;
   return pause;
 }
 
-/// Notes frames in which so many tests are repeated until the policy pauses; the frames that it took.
+/// Frames with so many repeated tests until the policy pauses; -1 where it does not.
 int frames_until_pause(CoherencePolicy& policy, std::size_t repeated, int at_most) {
   for (int frame = 1; frame <= at_most; ++frame) {
     policy.note(repeated, KEPT);

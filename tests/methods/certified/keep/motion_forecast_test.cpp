@@ -30,7 +30,7 @@ RigidTransform frame_of_motion(int frame, double speed, double tremor, std::mt19
   return RigidTransform(pose);
 }
 
-/// A walk of steps in random directions on top of a steady motion.
+/// Mean drift of a random walk on top of a steady motion.
 double mean_drift_of_walk(double steady, double tremor, bool& goes_on) {
   std::mt19937_64 random(5);
   MotionForecast forecast;
@@ -53,7 +53,7 @@ TEST(MotionForecast, GoesOnWithAMotionAndStaysWhereOneTrembles) {
   EXPECT_TRUE(goes_on);
   mean_drift_of_walk(1e-3, 1e-4, goes_on);
   EXPECT_TRUE(goes_on);
-  // A walk of k steps comes sqrt(k) steps far, and one of them says nothing of the next.
+  // A walk of k random steps gets sqrt(k) steps far, and no step predicts the next.
   const double drift = mean_drift_of_walk(0.0, 1e-3, goes_on);
   EXPECT_FALSE(goes_on);
   EXPECT_LT(drift, 1e-3);
@@ -82,7 +82,7 @@ TEST(MotionForecast, NothingIsFartherFromItsForecastThanTheDeviation) {
         continue;
       }
       forecast.advance(X, 1e-12);
-      // An epoch whose deviation is unknown is forgotten: its plans end.
+      // An epoch of unknown deviation is forgotten; its plans end.
       std::erase_if(plans, [&](const Plan& plan) {
         return forecast.deviation(plan.epoch) == std::numeric_limits<double>::infinity();
       });
@@ -121,7 +121,7 @@ TEST(MotionForecast, SeesASteadyMotionComing) {
   };
   forecast.reset(pose(0), 0.1, 0.01);
   for (int frame = 1; frame <= 61; ++frame) forecast.advance(pose(frame), 0.0);
-  // Sixty frames turn by 0.06: what is left is of third order.
+  // A turn of 0.06 in sixty frames leaves an error of third order.
   std::size_t remembered = 0;
   for (std::size_t epoch = 0; epoch < MotionForecast::EPOCHS; ++epoch) {
     if (forecast.deviation(epoch) == std::numeric_limits<double>::infinity()) continue;
@@ -156,7 +156,7 @@ TEST_F(CertificateQueueTest, GoOffWhenTheirFramesAreOver) {
   queue.drop(third);
   for (int frame = 1; frame <= 70; ++frame) {
     const auto due = next(x += 0.001);
-    // After 3 frames the plan still stands, and it does not after 4.
+    // The plan is for 3.5 frames: valid after 3 frames, due after 4.
     if (frame == 4) {
       EXPECT_EQ(due, std::vector<std::uint32_t>{first});
     } else if (frame == static_cast<int>(MotionForecast::LONGEST_PLAN) + 1) {
@@ -175,7 +175,7 @@ TEST_F(CertificateQueueTest, GoOffWhenTheMotionDeviates) {
   queue.plan(narrow, 50.0, 0.01, forecast);
   queue.plan(wide, 50.0, 0.1, forecast);
   EXPECT_TRUE(next(0.002).empty());
-  EXPECT_TRUE(next(0.0092).empty());  // 0.0062 from 0.003
+  EXPECT_TRUE(next(0.0092).empty());  // 0.0062 from 0.003, the forecast
   EXPECT_EQ(next(0.004 + 0.011), std::vector<std::uint32_t>{narrow});
   EXPECT_TRUE(next(0.005).empty());
   EXPECT_EQ(next(0.2), std::vector<std::uint32_t>{wide});
@@ -183,7 +183,7 @@ TEST_F(CertificateQueueTest, GoOffWhenTheMotionDeviates) {
 
 TEST_F(CertificateQueueTest, WhatAnEpochDeviatedByBeforeAPlanIsTakenFromItsBudget) {
   for (int frame = 0; frame < 9; ++frame) next(0.0);
-  // Ahead of the forecast by more than the plan stands from there to as far behind it.
+  // Planned ahead of the forecast, then behind it: together further than the budget.
   const std::size_t epoch = forecast.epoch();
   next(0.010);
   ASSERT_EQ(forecast.epoch(), epoch) << "in the middle of an epoch";
@@ -200,7 +200,7 @@ TEST_F(CertificateQueueTest, NoPlanStandsMoreThanItsBudgetNorMuchLess) {
     budgets.push_back(forecast.extent() * std::exp2(-14.0 * uniform(random)));
     queue.plan(queue.add(), 50.0, budgets.back(), forecast);
   }
-  // The motion stood still when they were planned.
+  // The motion was at rest when they were planned.
   std::size_t ended = 0;
   double x = 0.0, before = 0.0;
   for (int frame = 0; frame < 28; ++frame) {
@@ -245,7 +245,7 @@ TEST_F(CertificateQueueTest, WhatIsDueWhateverTheMotionComesFirst) {
 }
 
 TEST_F(CertificateQueueTest, PlansEndBeforeTheirEpochIsForgotten) {
-  // A motion that begins to tremble has shorter epochs: those of before are forgotten earlier than their plans are over.
+  // As a motion begins to tremble, epochs get shorter: older ones are forgotten before plans end.
   double x = 0.0;
   for (int frame = 0; frame < 8; ++frame) next(x += 1e-3);
   const std::uint32_t only = queue.add();

@@ -19,7 +19,7 @@ using testing::make_scene;
 
 constexpr double CUTOFF = 0.05, TOUCH = 1e-9, ROUNDING = 1e-12;
 
-/// Two bodies, one of which moves, with the front that is kept between the frames.
+/// Two bodies, one of which moves, with a front that lives from frame to frame.
 class TraversalFrontTest : public ::testing::Test {
  protected:
   using Key = std::tuple<FeatureId, FeatureId, bool>;
@@ -44,7 +44,7 @@ class TraversalFrontTest : public ::testing::Test {
       front_.advance(moving(), fixed(), query, motion_, transform_, CUTOFF, counters_);
     }
   }
-  /// The pairs that are due, each decided as told.
+  /// The pairs that are due; each gets this certificate.
   std::set<Key> due(const Certificate& certificate) {
     std::set<Key> keys;
     const auto decide = [&](const WidePair& pair, bool touches, double lever_arm) {
@@ -84,7 +84,7 @@ TEST_F(TraversalFrontTest, HoldsEveryPairOfASearchFromScratchAlongAnyMotion) {
     Pose pose = testing::grazing_pose(scene_, 0.02, random);
     Vec3 velocity = 1e-3 * testing::random_direction(random), spin = 1e-2 * testing::random_direction(random);
     for (int frame = 0; frame < 60; ++frame) {
-      if (frame % 20 == 19) {  // the forecast turns out wrong
+      if (frame % 20 == 19) {  // the forecast is wrong
         velocity = 4e-3 * testing::random_direction(random);
         spin = 3e-2 * testing::random_direction(random);
       }
@@ -93,7 +93,7 @@ TEST_F(TraversalFrontTest, HoldsEveryPairOfASearchFromScratchAlongAnyMotion) {
       const WideQuery query(moving(), fixed(), RigidTransform(pose), CUTOFF, TOUCH);
       if (!query.possible) break;
       go_to(pose);
-      // Nothing stands, so that every pair that is kept is due in every frame.
+      // With an empty certificate every pair of the front is due in every frame.
       const std::set<Key> held = due({}), wanted = from_scratch();
       EXPECT_EQ(held.size(), front_.pair_count());
       EXPECT_TRUE(std::includes(held.begin(), held.end(), wanted.begin(), wanted.end()))
@@ -136,7 +136,7 @@ TEST_F(TraversalFrontTest, ADecisionStandsUntilItsSlackIsUsedUp) {
     decided += due(stands).size();
   }
   EXPECT_LT(decided, 6 * all) << "in 30 frames without a turn";
-  // A turn of twice what the decisions stand, about the mesh's own origin, in one frame.
+  // A turn in one frame by twice what the decisions allow, about the mesh's own origin.
   const Vec3 origin_W = RigidTransform(pose).point(moving().origin);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.1, Vec3::UnitZ()));
   pose.rotation = turn * pose.rotation;
@@ -151,7 +151,7 @@ TEST_F(TraversalFrontTest, ATurnUsesUpADecisionByHowFarItMovesThePairAndByItsLev
   Pose pose = testing::grazing_pose(scene_, 0.02, random);
   go_to(pose);
   const double reach = motion_.extent(), slack = 0.064 * reach;
-  // With the lever arm alone a deviation of the slack is stood; with how far the pair is from the origin, no more than 0.6 of it.
+  // The lever arm alone allows a deviation of the slack; the distance from the origin, 0.6 of it.
   const Certificate stands = {
       .slack = slack, .gradient = Vec3::UnitX(), .spread = 0.0, .lever_arm = reach, .turn = 1.0};
   for (int frame = 0; frame < 4; ++frame) {
@@ -177,7 +177,7 @@ TEST_F(TraversalFrontTest, ForgetsWhatIsLeftBehind) {
   go_to(pose);
   ASSERT_GT(front_.pair_count(), 0u);
   const std::size_t tests = front_.test_count();
-  // Away from the fixed mesh, as far as the bounding spheres still allow.
+  // Away from the fixed mesh, as far as the bounding spheres still allow a pair.
   const Vec3 away = (pose.translation - fixed().origin).normalized();
   for (int frame = 0; frame < 200; ++frame) {
     pose.translation += 2e-3 * away;

@@ -54,7 +54,7 @@ TEST(WideLifetime, VectorAndScalarAgreeBitForBit) {
   EXPECT_GT(dead, 100u);
 }
 
-/// Two children that hold an LMD at the end of a motion, with the motion of the first one's mesh.
+/// Two children that hold an LMD at the end of a motion of the first one's mesh.
 struct EndsAsLmd {
   LaneSample a, b;  ///< As they are at the end, in one frame.
   double cutoff, frames, angle;
@@ -84,7 +84,7 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
   std::size_t rejected = 0, beyond = 0, held = 0, by_width = 0;
   for (int i = 0; i < 400000; ++i) {
     const EndsAsLmd pair(random);
-    // The moving mesh's own frame is the world at the end of the motion. At the start, its points were at
+    // The moving mesh's frame is the world at the end of the motion. At its start, points were at
     // start_centre + turn^-1 (x - centre).
     const Vec3 start_centre = pair.a.centre - pair.displacement;
     const Mat3 back = pair.turn.transpose();
@@ -126,7 +126,7 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
     if (result.lmd != 0) continue;
     ++rejected;
     if (with_widths && test_lanes_lifetime(node, probe, limits, forecast, test).lmd != 0) ++by_width;
-    // The turn displaces the centre; the origin has deviated by the rest.
+    // The turn moves the centre; the remaining deviation is the origin's.
     const double deviation = pair.deviation - pair.turn_deviation * pair.a.centre.norm() +
                              pair.turn_deviation * static_cast<double>(forecast.extent);
     if (deviation > static_cast<double>(result.deviation_budget)) {
@@ -142,8 +142,8 @@ TEST(WideLifetime, NothingIsAnLmdBeforeItsFramesAreOver) {
   EXPECT_GT(by_width, 1000u);
 }
 
-/// A turn that changes only how far a direction is outside a cone, by all that lemma 15 of PROOF.md grants: a disc with a
-/// wide cone round its axis turns a point of its rim up to a point beside it.
+/// The turn changes only how far a direction is outside a cone, by all that lemma 15 of PROOF.md
+/// allows: a disc with a wide cone round its axis turns a point of its rim up to a point beside it.
 TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   constexpr double CONE = 80.0 * std::numbers::pi / 180.0, BESIDE = 1e-3;
   std::mt19937_64 random(1);
@@ -156,7 +156,7 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   point.centre = {1.0 + BESIDE, 0.0, 0.0};
   point.axis = -Vec3::UnitX();
   point.radius = point.thickness = point.cosine = 0.0;
-  // The point is as far above the rim as the disc has turned, and inside its cone from here on.
+  // The disc turns until the point is that far above the rim; from then on it is inside the cone.
   const double turn = std::atan(BESIDE / std::tan(CONE));
   WideForecast forecast;
   forecast.spin = 1e-6F;
@@ -175,7 +175,7 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   }
 }
 
-/// Two children of which a point each touches at the end of a motion.
+/// Two children, a point of each of which touches the other at the end of a motion.
 TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
   std::mt19937_64 random(6);
   std::size_t apart = 0, held = 0, by_width = 0;
@@ -185,7 +185,7 @@ TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
     b.centre += together;
     const double frames = 1.0 + 20.0 * uniform(random);
     const Vec3 velocity = 0.05 * uniform(random) * random_direction(random);
-    // A motion without a turn: at the start, a is that much behind.
+    // A motion without a turn: at the start a is behind by the displacement.
     const bool moving_lanes = i % 2 == 1;
     const Vec3 displacement = frames * velocity;
     LaneSample start = a;
@@ -215,7 +215,7 @@ TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
     ++apart;
     if (with_widths && test_lanes_lifetime(node, probe, limits, forecast, test).touch != 0) ++by_width;
     ASSERT_LE(static_cast<double>(result.frames), frames * (1.0 + 1e-5)) << i;
-    // The bound is worth something: a good part of the way is covered.
+    // The bound is useful: it covers a good part of the motion.
     if (static_cast<double>(result.frames) > 0.3 * frames) ++held;
   }
   EXPECT_GT(apart, 20000u);
@@ -243,7 +243,7 @@ TEST(WideLifetime, TouchingIsAskedForLanesOfFacesAlone) {
 }
 
 TEST(WideLifetime, DirectionOfTheMotionCounts) {
-  // A lane beyond the cutoff: towards it the rejection stands for few frames, away from it for ever.
+  // A lane beyond the cutoff: its rejection is valid for few frames of approach, else for ever.
   std::mt19937_64 random(1);
   LaneSample a(random), b(random);
   a.centre = Vec3::Zero();
@@ -268,7 +268,7 @@ TEST(WideLifetime, DirectionOfTheMotionCounts) {
 }
 
 TEST(WideLifetime, ATurnCountsByHowFarItMovesTheChild) {
-  // The moving child is farther from its mesh's origin than `reach`: a turn that was not forecast moves it by more than it counts as.
+  // The child is farther than `reach` from its origin: a turn moves it by more than it counts.
   constexpr double FROM_ORIGIN = 1.0, REACH = 0.4, GAP = 0.7, CUTOFF = 0.1, RADIUS = 0.1;
   std::mt19937_64 random(1);
   LaneSample moving(random), fixed(random);
@@ -288,14 +288,14 @@ TEST(WideLifetime, ATurnCountsByHowFarItMovesTheChild) {
     const WideLimits limits{static_cast<float>(CUTOFF), 0.0F, 1e-6F};
     const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast,
                                                      {moving_lanes, {}, 0u, static_cast<float>(FROM_ORIGIN)});
-    // An angle a moves the centre by a FROM_ORIGIN, and counts as a REACH.
+    // A turn by a moves the centre by a FROM_ORIGIN, and counts as a REACH.
     const double angle = (GAP - CUTOFF) / (FROM_ORIGIN + RADIUS + 2.0 * CUTOFF);
     EXPECT_NEAR(static_cast<double>(result.deviation_budget), angle * REACH, 1e-4);
   }
 }
 
 TEST(WideLifetime, WhatTremblesIsPlannedByDeviationsAlone) {
-  // Lately it deviated by more than the slack: where nothing is forecast that does not shorten the plan, which stands all of the slack.
+  // Recent deviations exceed the slack; a plan without a forecast motion still gets all of it.
   std::mt19937_64 random(1);
   LaneSample a(random), b(random);
   a.centre = Vec3::Zero();
@@ -316,7 +316,7 @@ TEST(WideLifetime, WhatTremblesIsPlannedByDeviationsAlone) {
   };
   EXPECT_EQ(plan(0.0F).frames, static_cast<float>(MotionForecast::LONGEST_PLAN));
   EXPECT_NEAR(plan(0.0F).deviation_budget, 0.6F, 1e-4F);
-  // Else the slack is shared.
+  // With one, motion and deviations share the slack.
   EXPECT_NEAR(plan(0.02F).frames, LEAST_SHARE * 0.6F / 0.02F, 0.01F);
   EXPECT_NEAR(plan(0.02F).deviation_budget, (1.0F - LEAST_SHARE) * 0.6F, 1e-4F);
 }

@@ -72,8 +72,8 @@ TEST(PolarCap, HoldsThePolarCone) {
 }
 
 TEST(PolarCap, OfTentsOfAnyBend) {
-  // Two triangles on one edge, flat to folded both ways, needle-like to fat: the cone is the arc from normal
-  // to normal where the edge is convex, empty where it is reflex.
+  // Two triangles on one edge, flat to folded both ways, thin to fat. The cone is the arc from
+  // normal to normal where the edge is convex, empty where it is reflex.
   std::mt19937_64 random(7);
   std::size_t convex = 0, reflex = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -131,7 +131,7 @@ TEST(PolarCap, IsTight) {
   }
 }
 
-/// Calls visit(node, lane, features below).
+/// Calls visit(node, lane, features below the lane).
 std::vector<FeatureId> visit_lanes(
     const WideHierarchy& hierarchy, std::uint32_t node_index,
     const std::function<void(std::uint32_t, std::size_t, const std::vector<FeatureId>&)>& visit) {
@@ -148,14 +148,14 @@ std::vector<FeatureId> visit_lanes(
   return all;
 }
 
-/// @param shape  null: of the mesh itself
+/// @param shape  null for a hierarchy of the mesh itself
 void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surface,
                             const ShapeComplex* shape) {
   ASSERT_TRUE(bounds_what_is_below(hierarchy, surface, shape));
   const auto check = [&](std::uint32_t node_index, std::size_t lane, const std::vector<FeatureId>& below) {
     const WideNode& node = hierarchy.nodes[node_index];
     const Vec3 axis = axis_of_lane(node, static_cast<std::uint32_t>(lane));
-    // With a shape, the wings of a corner are others than its edges.
+    // With a shape, the wings of a corner are not its edges.
     if (axis.isZero(0.0) || (shape != nullptr && shape->is_joined)) return;
     for (const FeatureId& feature : below)
       for (const Vec3& direction : extreme_directions(surface, feature))
@@ -179,7 +179,7 @@ TEST(WideHierarchy, OwnsEveryFeatureOnceAndBoundsIt) {
   }
 }
 
-/// With the shape a lane holds a whole wall: every vertex of its region.
+/// With a shape a lane holds a whole wall: every vertex of its region.
 TEST(WideHierarchy, KnowsHowNarrowLongWallsAre) {
   const TriangleMesh mesh = make_bushing(48);
   const Body body("bushing", build_surface(mesh));
@@ -223,7 +223,7 @@ TEST(WideHierarchy, KnowsHowNarrowLongWallsAre) {
 }
 
 TEST(WideHierarchy, WallsOfABoreMeetAFewOfAPeg) {
-  // Whatever the number of walls: a disc round a wall meets half of all others.
+  // Whatever the number of walls; a disc round a wall would meet half of all the others.
   const auto touching_a_wall = [](int segments) {
     const Body peg("peg", build_surface(make_sleeve(circle_outline(0.3999), nullptr,
                                                     {.height = 1.0, .around = segments})));
@@ -334,9 +334,9 @@ TEST(WideNodeTest, VectorAndScalarAgreeBitForBit) {
 }
 
 TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
-  // The lane is placed so that the direction from the probe's point to the lane's lies in both cones at a
-  // distance within the cutoff: whatever the bodies, the pair must survive. Distance at most the touch
-  // distance: must touch.
+  // The lane is placed so that the direction from the probe's point to the lane's point is in both
+  // cones, at a distance within the cutoff: the pair must be kept, whatever the bodies. At a
+  // distance within the touch distance it must touch.
   std::mt19937_64 random(2);
   std::size_t rejected = 0, by_width = 0;
   for (int i = 0; i < 200000; ++i) {
@@ -344,7 +344,7 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
     LaneSample b(random);
     const double cutoff = 0.2 * uniform(random);
     const double distance = cutoff * (i % 2 == 0 ? 1.0 : uniform(random));
-    // Turn b so that its direction is the opposite of a's, then move its point to a's point + distance.
+    // Turn b so that its direction is opposite to a's, then move its point to a's point + distance.
     const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(b.direction, -a.direction).toRotationMatrix();
     b.turn(turn, a.point + distance * a.direction - turn * b.point);
     WideNode home{}, node{};
@@ -365,7 +365,7 @@ TEST(WideNodeTest, NeverRejectsAPairOfOppositeDirections) {
       ASSERT_EQ(masks.lmd, 8u) << i;
       ASSERT_EQ(masks.touch, 8u) << i;
     }
-    // A slightly larger gap than the cutoff along a's axis is what the test is for.
+    // The test is worth something if it rejects a pair at a gap slightly beyond the cutoff.
     WideLimits shorter = limits;
     shorter.reach *= 0.5F;
     shorter.touch = 0.0F;

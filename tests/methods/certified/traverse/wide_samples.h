@@ -19,7 +19,7 @@
 #include <random>
 #include <vector>
 
-/// What the tests of the wide hierarchy draw at random.
+/// Random inputs of the tests of the wide hierarchy.
 namespace lmdbench::testing {
 
 /// A ring of long walls, inside and outside: its hierarchy has widths.
@@ -40,7 +40,7 @@ inline std::vector<TriangleMesh> shapes() {
           make_bushing(48)};
 }
 
-/// A random rotation between two hierarchies with the moving one at about `distance`.
+/// A random transform between two hierarchies, with the moving one at about `distance`.
 inline RigidTransform random_transform(double distance, std::mt19937_64& random) {
   return RigidTransform(Pose{distance * random_direction(random), random_rotation(random)});
 }
@@ -92,8 +92,8 @@ struct LaneSample {
   }
 };
 
-/// Calls visit(query, node, probe, widths) for random nodes and children of every shape's hierarchy, against itself; `widths` is
-/// null where there are none.
+/// Calls visit(query, node, probe, widths) for random nodes and children of every shape's
+/// hierarchy, against itself; `widths` is null for a hierarchy without widths.
 template <class Visit>
 void for_each_random_node_test(std::mt19937_64& random, Visit&& visit) {
   for (const TriangleMesh& mesh : shapes()) {
@@ -115,7 +115,7 @@ void for_each_random_node_test(std::mt19937_64& random, Visit&& visit) {
   }
 }
 
-/// Two forms of a traversal found the same, in the same order and with the same work.
+/// Expects the same pairs from two traversals, in the same order and with the same work.
 inline void expect_same_pairs(const WideScratch& a, const WideCounters& of_a, const WideScratch& b,
                               const WideCounters& of_b) {
   ASSERT_EQ(a.lmd_pairs.size(), b.lmd_pairs.size());

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: 0BSD */
-/* METHOD_NAME: the nearest pair of vertices. Replace it by a method of yours; lmdbench_method.h says what the functions owe. */
+/* METHOD_NAME: the nearest pair of vertices. Replace it; lmdbench_method.h has the contract. */
 #include "lmdbench_method.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-// METHOD_NAME: each vertex of A with the nearest one of B. Replace it by a method of yours; lmdbench_method.h says what is owed.
+// METHOD_NAME: each vertex of A with the nearest one of B. Replace it (see lmdbench_method.h).
 #include "plugin.hpp"
 
 #include <array>
@@ -14,7 +14,7 @@ double distance(const Point& p, const Point& q) {
   return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
 }
 
-/// Vertices with a triangle that each is a corner of.
+/// Vertices, each with a triangle that has it as a corner.
 struct Sites {
   struct Site {
     Point p{};

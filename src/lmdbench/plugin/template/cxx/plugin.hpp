@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-// What stands between a class and the functions of lmdbench_method.h: no exception leaves, contacts go where there is room.
+// From a class to the functions of lmdbench_method.h: catches exceptions, fits the host's room.
 #pragma once
 
 #include "lmdbench_method.h"
@@ -12,9 +12,9 @@
 
 namespace plugin {
 
-/// Method: constructor (const lmdbench_mesh& a, const lmdbench_mesh& b, double cutoff, const std::string& options) that copies what it
-/// keeps and throws where it cannot work; void search(const double* X_BA, std::vector<lmdbench_contact>& contacts).
-/// With a force of its own also: void force(double wrench[6]), of the last search (`with_force`).
+/// Method: a constructor (const lmdbench_mesh& a, const lmdbench_mesh& b, double cutoff, const
+/// std::string& options) that copies what it keeps and may throw; void search(const double* X_BA,
+/// std::vector<lmdbench_contact>&). Own force, of the last search: void force(double wrench[6]).
 template <class Method>
 struct Functions {
   struct Instance {
@@ -52,7 +52,7 @@ struct Functions {
   }
   static void destroy(void* instance) { delete static_cast<Instance*>(instance); }
 
-  /// Without extensions and memory of earlier frames.
+  /// A method without extensions or memory of earlier frames.
   static constexpr lmdbench_method described(const char* name, const char* version, const char* text,
                                              int32_t promise, const char* options = nullptr) {
     return {

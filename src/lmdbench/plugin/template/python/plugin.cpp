@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: 0BSD
-// Carries poses and contacts between lmdbench and method.py; nothing to change here but the description at the end.
+// Carries poses and contacts to method.py and back; change only the description at the end.
 #include "lmdbench_method.h"
 #include <dlfcn.h>
 #include <pybind11/embed.h>
@@ -14,12 +14,12 @@ namespace {
 
 void start_python() {
   static const bool started = [] {
-    // Modules written in C look for the interpreter's functions among everybody's.
+    // Modules written in C look up the interpreter's functions globally.
     dlopen(LIBPYTHON, RTLD_NOW | RTLD_GLOBAL);
     PyConfig config;
     PyConfig_InitPythonConfig(&config);
     config.install_signal_handlers = 0;
-    PyConfig_SetBytesString(&config, &config.program_name, PYTHON);  // whose modules are to be found
+    PyConfig_SetBytesString(&config, &config.program_name, PYTHON);  // finds the modules
     Py_InitializeFromConfig(&config);
     PyConfig_Clear(&config);
     py::module_::import("sys").attr("path").attr("insert")(0, FOLDER);
