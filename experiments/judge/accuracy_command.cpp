@@ -29,14 +29,15 @@ void print_answers(const char* published, const char* remake, const char* owner,
       "Made by `{} > {}`;\n"
       "the answers are checked by the test `{}`.\n\n"
       "## Answers\n\n"
-      "{} pairs a family (experiments/triangles/triangle_families.cpp). An error is relative to the\n"
-      "pair's largest coordinate; *wrong* is above {:.0e}, *gross* above {:.0e}, a *false contact*\n"
-      "is contact claimed for triangles more than {:.0e} apart. Every distance is known to 2e-17:\n"
-      "bounded from above by two points of the triangles and from below by a direction that keeps\n"
-      "them apart, with the rounding of both (experiments/judge/distance_bracket.h), in rational\n"
-      "arithmetic where that does not close; contact is decided by exact predicates. Of ours the\n"
-      "two points are judged as well: how far they are off their triangles counts as error.\n"
-      "FCL 0.7.0 and CGAL 5.5.1 (`Simple_cartesian<double>`) as Debian 12 ships them.\n\n{}",
+      "{} pairs a family (experiments/triangles/triangle_families.cpp). FCL 0.7.0 and CGAL 5.5.1\n"
+      "(`Simple_cartesian<double>`) as Debian 12 ships them.\n\n"
+      "- An error is relative to the pair's largest coordinate; *wrong* is above {:.0e}, *gross* above\n"
+      "  {:.0e}, a *false contact* is contact claimed for triangles more than {:.0e} apart. Of ours the\n"
+      "  two points are judged as well: how far they are off their triangles counts as error.\n"
+      "- Every distance is known to 2e-17: bounded from above by two points of the triangles and from\n"
+      "  below by a direction that keeps them apart, with the rounding of both\n"
+      "  (experiments/judge/distance_bracket.h), in rational arithmetic where that does not close;\n"
+      "  contact is decided by exact predicates.\n\n{}",
       remake, published, owner, pairs, WRONG_ERROR, GROSS_ERROR, WRONG_ERROR, accuracy_markdown(rows, pairs));
 }
 
@@ -59,10 +60,10 @@ void print_times() {
 
 int judge_accuracy(bool million) {
   if (million) {
-    fmt::print("# Triangle distances: a million pairs a family\n\n");
+    fmt::print("# How right are triangle distances of three kernels, in a million pairs a family?\n\n");
     print_answers(MILLION_TABLE, "lmdbench-judge accuracy --million", "MillionTable", MILLION_PAIRS);
   } else {
-    fmt::print("# Triangle distances: answers and times of three kernels\n\n");
+    fmt::print("# How right and how fast are triangle distances of three kernels?\n\n");
     print_answers(PUBLISHED_TABLE, "lmdbench-judge accuracy", "AccuracyTable.IsTheOneThatIsPublished",
                   PUBLISHED_PAIRS);
     print_times();

@@ -107,15 +107,12 @@ def standings(rows):
 
 
 LEGEND = f"""\
-The numbers are the program's own, defined in results/README.md. Contact frames: the meshes are within the cutoff (in
-parentheses: frames with an LMD at distance 0). LMDs: most in a frame. Recall, precision: pooled over the probed frames,
-same features (in parentheses: neighbouring features count). Frames wrong: probed frames in which the set is not the true
-one. Probed frames count from the first one in which a search can have arrived. Distance error: the largest. Force error:
-the largest, of the probed frames in which the meshes are apart, against the true force under the same law. Force jump: the
-largest change from a probed frame to the next; beside it the largest of the true force. Not a number: values that must be
-numbers and are not. Times: the local update, of every frame the least of all repetitions; `original` and `improved` search
-beside it, at their own pace. Stands: recall with neighbouring features at least {STANDS_RECALL:.0%}, force never off by more than
-{STANDS_FORCE:.0%} of F_max, no value missing; else what is in the way."""
+*Recall, precision*: pooled over the probed frames, same features (in parentheses: neighbouring features count). *Force error*: the largest, of the
+probed frames in which the meshes are apart, against the true force under the same law. *Times*: the local update, of every frame the least of all
+repetitions; `original` and `improved` search beside it. *Stands*: recall with neighbouring features at least {STANDS_RECALL:.0%}, force never off by
+more than {STANDS_FORCE:.0%} of F_max, no value missing; else what is in the way. In the file, *contact frames*: the meshes are within the cutoff (in
+parentheses: frames with an LMD at distance 0); *LMDs*: most in a frame; *frames wrong*: probed frames whose set is not the true one, counted from the
+first in which a search can have arrived; *force jump*: the largest change from a probed frame to the next. Numbers are defined in results/README.md."""
 
 
 def complaints(rows):

@@ -144,35 +144,37 @@ def cost_table(program, experiment, scratch):
 
 TEXT = """# Hard against soft
 
-Made by `scripts/figures/hard_soft.py` from `experiments/bunny-closed.json`, whose run puts both profiles through the same meant path with the same force law and F_max; only the
-cutoff differs (0.5 % and 5 % of the diagonal), and with it the stiffness. In the closed loop an arm (0.554 kg, 6.45 N s/m, 135 N/m)
-draws a simulated PHANTOM Desktop with friction and encoder counts along the path. Jumps are changes of force above a quarter of F_max from a
-frame to the next; dropouts are frames in contact in which the force falls to zero; energy created is the largest net work of the
-rendered force, which would be at most zero for a passive contact that begins and ends apart.
+Made by `scripts/figures/hard_soft.py` from `experiments/bunny-closed.json`.
 
 ![force, spectrum, stiffness and clearance, hard and soft, open and closed loop](hard-soft.png)
+
+Both profiles go through the same meant path with the same force law and F_max. In the closed loop an arm (0.554 kg, 6.45 N s/m, 135 N/m) draws a
+simulated PHANTOM Desktop with friction and encoder counts.
+
+- *Jumps*: changes of force above a quarter of F_max from a frame to the next. *Dropouts*: frames in contact in which the force falls to zero.
+- *Energy created*: the largest net work of the rendered force; at most zero for a passive contact that begins and ends apart.
 
 {kinds}
 
 ## Age of the LMD set
 
-The closed loops again with searches that start every so many frames and arrive as many later; `predicted`: they take place
-where the mesh will be when they arrive. `certified` searches in every frame and has no age.
+The closed loops again with searches that start every so many frames and arrive as many later; `predicted`: they take place where the mesh will be
+when they arrive. `certified` searches in every frame and has no age.
 
 {ages}
 
 ## What prediction does to the error
 
-The same ages in the open loop, where all methods see the same poses: the length of the difference between a method's force and that of
-the exact set (`certified`) under the same law, over the frames in contact.
+The same ages in the open loop, where all methods see the same poses: the length of the difference between a method's force and that of the exact set
+(`certified`) under the same law, over the frames in contact.
 
 {predicted}
 
 ## What a second costs
 
-Processor time (user and system) of the whole program, `certified`, closed loop at 1 kHz: the difference between runs of {frames} frames and of one,
-over {seconds:g} s; {repetitions} repetitions. `record` is the loop alone: search, force, simulated device, the path's file. `run` judges afterwards:
-which frames are in contact takes nearest distances of the meshes wherever they are about the cutoff, as they are in the hard profile.
+Processor time of the whole program, `certified`, closed loop at 1 kHz: the difference between runs of {frames} frames and of one, over {seconds:g} s;
+{repetitions} repetitions. `record` is the loop alone: search, force, simulated device, the path's file. `run` judges afterwards, too: which frames are in contact
+takes nearest distances wherever the meshes are about the cutoff, as they are in the hard profile.
 
 {cost}
 """

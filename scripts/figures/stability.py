@@ -191,39 +191,33 @@ def main(argv):
 
 TEXT = """# Stability of the closed loop
 
-Made by `scripts/figures/stability.py`. Each critical stiffness was found by simulation through meshes, method, force law,
-zero-order hold and delay; what counts as clean stands in `src/lmdbench/metrics/cleanliness.h`, how a stiffness is tried in
-`stability_trial.h` beside it.
+Made by `scripts/figures/stability.py`. Each stiffness was found by simulation through meshes, method, force law, zero-order hold and delay: the
+device rests in contact and is tapped (`src/lmdbench/stability/stability_trial.h`; what counts as clean: `src/lmdbench/metrics/cleanliness.h`).
 
 ![largest clean stiffness over delay](stability.png)
 
 ## Contacts with a hand
 
-A device of 0.075 kg and 0.005 N s/m in the hand `postural-arm` (0.554 kg, 6.45 N s/m, 135 N/m) at 1 kHz rests in contact. The
-hard profile is the experiment's, the soft one has a cutoff five times as far and no saturation. Stiffness is K_eff, the slope of the summed force along
-itself. The column before the last is the exact boundary of one contact in that direction; where several contacts of different
-directions act, the loop is not one-dimensional and may end earlier. The paper's methods track their set in every frame, so at rest their
-sets do not age and the delay that counts is the force's.
-
-Where the contacts act along one line and the method keeps them all, it is as stiff as theory allows, hard or soft: the limit is a
-stiffness, not a profile. A method whose set changes while the device swings by a hundredth of the gap ends far below it: its force
-jumps instead of following the distance.
+A device of 0.075 kg and 0.005 N s/m in the hand `postural-arm` (0.554 kg, 6.45 N s/m, 135 N/m). The hard profile is the experiment's; the soft one
+has a cutoff five times as far and no saturation. Stiffness is K_eff, the slope of the summed force along itself. The paper's methods track in every
+frame, so at rest their sets do not age: the delay is the force's. Where contacts of several directions act the loop is not one-dimensional and may
+end before the exact boundary of one contact.
 
 {scenes}
 
 ## Walls
 
-{count} devices, rates and delays, `certified`, linear law, without hand, friction and quantisation. The largest difference to the exact
-boundary is {worst:+.1e} ({row[mass_kg]:g} kg, {row[damping_n_s_per_m]:g} N s/m, {row[servo_rate_hz]:g} Hz, {row[delay_frames]} frames).
+{count} devices, rates and delays, `certified`, linear law, without hand, friction and quantisation. The largest difference to the exact boundary is
+{worst:+.1e} ({row[mass_kg]:g} kg, {row[damping_n_s_per_m]:g} N s/m, {row[servo_rate_hz]:g} Hz, {row[delay_frames]} frames).
 
 {walls}
 
 ## A contact on a lever
 
-Six actuated degrees of freedom (`experiments/wall-6dof.json`): the contact is 50 mm beside the point that the device holds, so the device gives
-way by moving and by turning, and the boundary is that of both (`phantom/stability_boundary.h`). Inertia, damping and hand of the turn are
-those of the translation at a lever of 50 mm (ours) but in the first rows, where the device is too heavy to move and turns with 1e-4 kg m^2 and
-2e-3 N m s: there K l^2 is the critical stiffness of a rotational wall. The largest difference is {turned:+.1e}.
+Six actuated degrees of freedom (`experiments/wall-6dof.json`): the contact is 50 mm beside the point that the device holds, which gives way by moving
+and by turning; the boundary is that of both (`phantom/stability_boundary.h`). Inertia, damping and hand of the turn are those of the translation at a
+lever of 50 mm (ours). In the first rows the device is too heavy to move and turns with 1e-4 kg m^2 and 2e-3 N m s: K l^2 is the critical stiffness of
+a rotational wall. The largest difference is {turned:+.1e}.
 
 {levers}
 """

@@ -209,6 +209,8 @@ def crossings(sweep, cheaper="improved", reference="certified"):
             continue
         by_cost = crossing(points, cost(exact), cost)
         by_median = crossing(points, exact.number("frame_time_median_s"), lambda point: point.number("frame_time_median_s"))
+        if not (math.isfinite(by_cost) or math.isfinite(by_median)):
+            continue
         beyond = next((point for point in sorted(points, key=lambda point: point.period) if point.period >= by_cost), None)
         at = f"{shown(error(beyond))} (at {beyond.period})" if beyond else "-"
         recall = f"{shown(100 * beyond.number('recall'))} (at {beyond.period})" if beyond else "-"
@@ -289,12 +291,11 @@ def markdown(sweep, picture):
     text = [
         "# Error against run time", "",
         f"{sweep.title}. Made by `lmdbench work-precision experiments/sweeps/{sweep.name}.json` and "
-        f"`scripts/figures/sweep.py results/{sweep.name}.h5` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}. "
-        "Truth stands in every frame: the sets of `certified`, which in "
-        f"{checked} frames of the problems were compared with `exhaustive` ({wrong or 'none'} differ). Forces are compared under each method's "
-        "own law. Points take turns in random order; a frame counts with the median of its repetitions. Reading the clock costs "
-        f"{1e9 * sweep.clock_overhead:.0f} ns of every time. `certified` uses vector instructions, `original` and `improved` are "
-        f"scalar: part of the distance between them is that.{load(sweep)}", ""]
+        f"`scripts/figures/sweep.py results/{sweep.name}.h5` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}; "
+        "`certified` with vector instructions, `original` and `improved` scalar.", "",
+        f"Truth in every frame is the set of `certified`, compared with `exhaustive` in {checked} frames of the problems "
+        f"({wrong or 'none'} differ). Forces are compared under each method's own law. Points take turns in random order; a frame counts "
+        f"with the median of its repetitions; reading the clock costs {1e9 * sweep.clock_overhead:.0f} ns of every time.{load(sweep)}", ""]
     if picture:
         text += [f"![Error against run time]({picture})", ""]
     text += ["## Which method at which budget", "",
@@ -303,8 +304,8 @@ def markdown(sweep, picture):
     cheaper = crossings(sweep)
     if cheaper:
         text += ["## Where `improved` gets cheaper than `certified`", "",
-                  "The rarer its searches, the cheaper `improved` is and the older its sets. It costs less than `certified` where it "
-                  "searches more rarely than every", "", *cheaper]
+                  "Searches rarer than every so many frames make `improved` cheaper than `certified`, and its sets older. Problems without a row: "
+                  "never.", "", *cheaper]
     for problem in sweep.problems:
         text += [f"## {problem}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and run time.", "", *point_table(sweep, problem)]
     return "\n".join(text)

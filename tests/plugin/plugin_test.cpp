@@ -136,7 +136,7 @@ TEST(Plugin, OwnForcesOfSeveralMoversAreOppositeInPairs) {
   method.search(held, lmds, marks);
   const std::optional<OwnWrench> of_other = own_wrench_of(method, 0), of_held = own_wrench_of(method, 1);
   ASSERT_TRUE(of_other && of_held);
-  // The other one is the first of their pair: 2 N along the held one's z on it, and what stands gives 2 N along the world's.
+  // Of their pair the other one is first: 2 N along the held one's z; the fixed mesh: 2 N along z.
   const Vec3 z_held = RigidTransform(held).direction(Vec3(0, 0, 2)), z(0, 0, 2);
   EXPECT_LT((of_other->force - (z + z_held)).norm(), 1e-12);
   EXPECT_LT((of_held->force - (z - z_held)).norm(), 1e-12);

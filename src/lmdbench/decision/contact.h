@@ -35,12 +35,12 @@ struct ShapeSide {
     const Plane& own = shape.regions.planes[static_cast<std::size_t>(region)];
     return is_moving ? Plane{X_WS.point(own.point), X_WS.direction(own.normal)} : own;
   }
-  /// By how much a point of this mesh moves against the other for a displacement of the moving mesh by 1.
+  /// Motion of this mesh against the other for a displacement of the moving mesh by 1.
   double sign() const { return is_moving ? 1.0 : -1.0; }
 
-  // Of leads. What is in the mesh itself is read there: of a scan that is all.
+  // Of leads. They are read in the mesh itself where they are in it: on a scan all are.
 
-  /// The feature of the shape, its index counting regions, chains or vertices; -1 where the mesh's feature is part of none.
+  /// The lead's feature of the shape; its index counts regions, chains or vertices, -1: of none.
   FeatureId feature_of_lead(const FeatureId& lead) const {
     if (lead.kind == FeatureKind::EDGE) return {lead.kind, shape.chain_of(lead.index)};
     if (lead.kind == FeatureKind::FACE) return {lead.kind, shape.region_of(lead.index)};
@@ -67,28 +67,27 @@ struct ShapeSide {
   }
 };
 
-/// What two features of the shapes share: a point of each, or where they are parallel a segment or polygon of
-/// minimisers of the distance. World coordinates.
+/// What two features of the shapes share: a point of each or, where they are parallel, a segment or
+/// polygon of minimisers of the distance. World coordinates.
 struct Contact {
   FeatureId moving, fixed;  ///< `index` counts regions, chains or vertices.
   int dimension = 0;        ///< 0: a pair of points, 1: of segments, 2: of polygons.
   double distance = 0.0;    ///< Of the points [m].
   Vec3 point_moving, point_fixed;
   Vec3 direction;  ///< Unit vector, from the moving mesh to the fixed one.
-  /// Sine of the angle by which the direction may be off: 0 where a plane tells it, rounding / distance between points, with what the
-  /// distance changes by between parallel chains; but no more than the features' cones leave it.
+  /// Sine of the direction's error: 0 for a plane's normal; between points rounding / distance;
+  /// of parallel chains with their change of distance. No more than the cones of both leave open.
   double direction_error = 0.0;
-  double fall =
-      0.0;  ///< Sine of the slope at which surfaces may lead down from it, and rounding have made a minimum of it.
+  double fall = 0.0;       ///< Sine of a slope down that rounding may have hidden at this minimum.
   double least_gap = 0.0;  ///< Least distance over the contact, negative where it crosses [m].
   double measure = 0.0;    ///< Length [m] or area [m^2].
   std::array<Vec3, 2> ends_moving, ends_fixed;     ///< Of segments.
   std::uint32_t first_piece = 0, piece_count = 0;  ///< Of polygons: in ContactSet::pieces.
   std::uint32_t frame = 0;                         ///< Of polygons: in ContactSet::frames.
   bool is_whole = false;  ///< Of polygons: all that the two regions share over each other.
-  /// Of polygons: some contact over it was taken out (covered_contacts.h), and one of them is a pair of points.
+  /// Of polygons: some contact that it covers was taken out (covered_contacts.h); a pair of points.
   bool covers = false, covers_point = false;
-  bool is_minimum = true;  ///< False for a critical pair that adds nothing but its index (critical_index.h).
+  bool is_minimum = true;  ///< False for a critical pair that adds only an index (critical_index.h)
   int index = 0;           ///< Of critical pairs, where they are asked for.
   bool is_basin = false;   ///< Nothing round either feature is nearer where the index was taken.
 };

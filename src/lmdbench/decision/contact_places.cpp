@@ -12,7 +12,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Sine of the largest angle between planes of one contact that rounding of heights explains: far below an angle between faces.
+/// Sine of the largest angle between planes of one contact that rounding explains.
 constexpr double LARGEST_TURN = 1e-3;
 /// Polygons of more pieces get a grid of them.
 constexpr std::size_t PIECES_WITHOUT_GRID = 8;
@@ -67,7 +67,7 @@ double ContactPlaces::fall_of_farther(const Contact& a, const Contact& b, double
 
 bool ContactPlaces::have_one_direction(const Contact& a, const Contact& b, double way) const {
   const double apart = (a.direction - b.direction).norm(), farther = std::max(a.distance, b.distance);
-  // Vectors to the origin of points of a convex set whose lengths differ by `fall` differ by at most sqrt(4 * length * fall).
+  // Points of a convex set whose distances to the origin differ by f are within sqrt(4 length f).
   const double rounded = 8.0 * tolerance_.rounding / std::max(farther, tolerance_.rounding);
   if (apart <= 2.0 * tolerance_.largest_tilt + a.direction_error + b.direction_error +
                    std::min(std::sqrt(rounded), LARGEST_TURN))
@@ -77,12 +77,12 @@ bool ContactPlaces::have_one_direction(const Contact& a, const Contact& b, doubl
          (a.distance * a.direction - b.distance * b.direction).squaredNorm() <= 4.0 * farther * fall;
 }
 
-/// Whether a piece of a polygon that may come within reach of a box fits.
+/// Whether `fits` holds for a piece of a polygon near a box.
 template <class Fits>
 bool ContactPlaces::any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits) {
   const auto pieces = set_.pieces_of(contact);
   if (pieces.size() <= PIECES_WITHOUT_GRID) return std::ranges::any_of(pieces, fits);
-  // Asked for by each corner and chain of a large contact.
+  // Each corner and chain of a large contact asks.
   if (grids_.size() < set_.frames.size()) grids_.resize(set_.frames.size());
   std::optional<BoxGrid>& grid = grids_[contact.frame];
   if (!grid) {
@@ -133,7 +133,7 @@ bool ContactPlaces::meet(const Contact& a, const Contact& b) {
       return touches(piece);
     });
   };
-  // Along the normal of `a` both sides of a contact in one direction lie over each other.
+  // Both sides of `a` lie over each other along its normal; those of `b` are shifted by `apart`.
   const Vec2 apart = frame.flat(b.point_moving) - frame.flat(b.point_fixed);
   return meets(b.point_fixed, b.ends_fixed, Vec2::Zero()) &&
          (apart.norm() <= reach || meets(b.point_moving, b.ends_moving, apart));

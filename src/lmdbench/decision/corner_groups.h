@@ -12,9 +12,9 @@
 
 namespace lmdbench {
 
-/// Groups of pairs of features: two pairs that share a corner on the moving and a corner on the fixed mesh are
-/// in one group, and so is what is joined over several such steps. Its work is proportional to the number of
-/// pairs, where a comparison of all that meet in a corner would be quadratic.
+/// Groups of pairs of features. Two pairs that share a corner on the moving and a corner on the
+/// fixed mesh are in one group, also over several such steps. The work is proportional to the
+/// number of pairs; a comparison of all pairs at a corner would be quadratic.
 class CornerGroups {
  public:
   /// @param count of pairs, named 0 to count - 1; each starts as a group of its own
@@ -43,7 +43,7 @@ class CornerGroups {
       }
   }
 
-  /// What is added from now on shares no corner with what has been added before: another fixed mesh.
+  /// Pairs added from now on share no corner with earlier ones: they are of another fixed mesh.
   void forget_corners() {
     std::fill(keys_.begin(), keys_.end(), 0);
     used_ = 0;
@@ -62,7 +62,7 @@ class CornerGroups {
     parents_[std::max(group_a, group_b)] = static_cast<std::uint32_t>(first);
     return first;
   }
-  /// Of the key, or the empty one that it may have (open addressing; multiplicative hashing, Knuth 6.4).
+  /// Slot of the key, or its empty one (open addressing; multiplicative hashing, Knuth 6.4).
   std::size_t slot_of(std::uint64_t key) const {
     std::size_t slot = (key * 0x9E3779B97F4A7C15U) >> shift_;
     while (keys_[slot] != 0 && keys_[slot] != key) slot = (slot + 1) & (keys_.size() - 1);
@@ -85,8 +85,8 @@ class CornerGroups {
     }
   }
 
-  std::vector<std::uint32_t> parents_;  ///< Never above the pair itself.
-  std::vector<std::uint64_t> keys_;     ///< A corner of either mesh; 0: empty.
+  std::vector<std::uint32_t> parents_;  ///< Never greater than the pair itself.
+  std::vector<std::uint64_t> keys_;     ///< A corner of each mesh; 0: empty.
   std::vector<std::uint32_t> pairs_;    ///< A pair of the group that has these corners.
   std::size_t used_ = 0;
   int shift_ = 0;

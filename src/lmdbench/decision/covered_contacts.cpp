@@ -12,10 +12,10 @@ namespace lmdbench {
 
 namespace {
 
-/// What is covered lies inside the other face by more than this many tolerances: nothing on its border comes that near.
+/// Tolerances by which a covered contact lies inside the other face: none on its border is as near.
 constexpr double MARGIN_IN_TOLERANCES = 2.0;
 
-/// Fewer contacts a polygon are joined as soon as looked through, as on the walls of a peg (`lmdbench-study flat --parts --row peg`).
+/// Fewer contacts a polygon are joined as fast (`lmdbench-study flat --parts --row peg`).
 constexpr std::size_t LEAST_CONTACTS_A_COVER = 8;
 
 /// A polygon with the two regions that share it.
@@ -87,7 +87,7 @@ std::vector<Contact> take_covered(const ShapePair& pair, std::vector<Contact>& c
     }
     return nullptr;
   };
-  // Polygons stay where they are until all have been asked.
+  // Contacts move only after all were asked: `covers` points to polygons.
   std::vector<bool> is_covered;
   is_covered.reserve(contacts.size());
   for (const Contact& contact : contacts) {

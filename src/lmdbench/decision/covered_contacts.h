@@ -8,15 +8,15 @@
 
 namespace lmdbench {
 
-/// How far the distances of what is covered by a polygon and of what that may be joined with can be from the polygon's [m].
+/// How far from a polygon's distance others are that may join with contacts that it covers [m].
 double covered_spread(const ContactTolerance& tolerance, const Contact& polygon);
 
-/// Takes out what a polygon says already: what corners and chains of a face share with another face, inside the polygon that is all that the
-/// two faces share, where no other polygon is as far away. A gear that lies on another one has one such polygon and a
-/// thousand of them. The polygon remembers (Contact::covers, covers_point).
+/// Takes out contacts that a polygon covers: of corners and chains of a face with another face,
+/// inside the polygon that is all that both faces share. No other polygon may be as far away. (A
+/// gear on a gear: one polygon, a thousand contacts.) The polygon remembers them (Contact::covers).
 ///
-/// It is of the polygon's LMD. What is left is joined as if it were there when all contacts within `covered_spread` are of that LMD too:
-/// nothing else is near enough in distance to be joined with what is covered.
+/// They are of its LMD. Joining the rest gives the same if all within `covered_spread` are of it
+/// too.
 std::vector<Contact> take_covered(const ShapePair& pair, std::vector<Contact>& contacts);
 
 }  // namespace lmdbench

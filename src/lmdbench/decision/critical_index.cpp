@@ -15,18 +15,18 @@ namespace {
 
 using CornerKind = SignedFeatures::CornerKind;
 
-// The quantities whose signs neighbouring features share, each in one form: a foot that leaves a feature enters its neighbour
-// when one of them changes its sign, in the same bits for both.
+// The quantities whose signs neighbouring features share, each computed in one form: when one of
+// them changes its sign a foot leaves a feature and enters its neighbour, with the same bits.
 
-/// > 0: the point x lies beyond v on the way along the chain from v to o.
+/// > 0: x lies beyond v on the way along the chain from v to o.
 double beyond_corner(const Vec3& x, const Vec3& v, const Vec3& o) {
   return (x - v).dot(o - v);
 }
 
 using LongVec3 = Eigen::Matrix<long double, 3, 1>;
 
-/// Of edges that are parallel but for GENERIC_TURN what is asked for is the turn times the gap: for a gap of some 1e-6 of the edges that is
-/// the rounding of products of lengths. Where a product in double may have lost its sign it is made again with longer numbers.
+/// A product in double below this part of its bound may have lost its sign: it is made again in
+/// long double. Edges parallel but for GENERIC_TURN have them at gaps of 1e-6 of their length.
 constexpr double LOST_SIGN = 0x1p-44;
 
 template <class Vector>
@@ -34,8 +34,8 @@ auto along_chain_of(const Vector& r, const Vector& a, const Vector& b) {
   return r.dot(a) * b.squaredNorm() - r.dot(b) * a.dot(b);
 }
 
-/// > 0: d, from v to its foot on a line of another mesh, has a component along the chain from v to o. Also the place of the
-/// common perpendicular's foot beyond v on that chain.
+/// > 0: d, from v to its foot on a line of another mesh, has a component along the chain from v to
+/// o. Also the place on that chain, from v, of the foot of the common perpendicular.
 double along_chain(const Vec3& v, const Vec3& o, const std::array<Vec3, 2>& line) {
   const Vec3 r = line[0] - v, a = o - v, b = line[1] - line[0];
   const double value = along_chain_of(r, a, b), size = LOST_SIGN * b.squaredNorm();
@@ -45,7 +45,7 @@ double along_chain(const Vec3& v, const Vec3& o, const std::array<Vec3, 2>& line
                                                       line[1].cast<long double>() - start));
 }
 
-/// Volume that two lines span, > 0 where the second one lies on the side of a x b; r leads from the first line to the second one.
+/// Volume that two lines span: > 0 if the second lies on the side of a x b.
 double orientation_of(const std::array<Vec3, 2>& first, const std::array<Vec3, 2>& second) {
   const Vec3 a = first[1] - first[0], b = second[1] - second[0], r = second[0] - first[0];
   const double value = r.dot(a.cross(b)), size = LOST_SIGN * LOST_SIGN * r.squaredNorm();
@@ -76,7 +76,7 @@ struct Sign {
   bool is_lowest = false;
 };
 
-/// Of a corner.
+/// Sign of a corner.
 /// @param rises  whether u has a component along the chain to a vertex
 template <class Rises>
 Sign sign_of_corner(const ShapeSide& side, const SignedFeatures& signs, std::int32_t vertex, const Vec3& u_W,
@@ -105,7 +105,7 @@ Sign sign_of_corner(const ShapeSide& side, const SignedFeatures& signs, std::int
     }
     return {index, is_lowest};
   }
-  // Signed triangles from `outward` to the polygon of normals that hold u.
+  // Winding number: sum over signed triangles from `outward` to the polygon of normals that hold u.
   const auto normal_at = [&](std::size_t k) -> const Vec3& {
     return side.shape.regions.planes[static_cast<std::size_t>(signs.regions[corner.first + k])].normal;
   };
@@ -127,7 +127,7 @@ Sign sign_of_corner(const ShapeSide& side, const SignedFeatures& signs, std::int
   return {index, std::ranges::none_of(others, rises)};
 }
 
-/// Of a chain, for u square to it.
+/// Sign of a chain, for u square to it.
 /// @param inside  whether u has a component into either region
 Sign sign_of_chain(const ShapeSide& side, const SignedFeatures::Chain& chain, const Vec3& u_W,
                    const std::array<bool, 2>& inside) {
@@ -136,7 +136,7 @@ Sign sign_of_chain(const ShapeSide& side, const SignedFeatures::Chain& chain, co
   return {1 - static_cast<int>(inside[0]) - static_cast<int>(inside[1]), !inside[0] && !inside[1]};
 }
 
-/// Whether a region holds the foot of x, by the sides of its chains: of a polygon by their crossings with a ray.
+/// Whether a region holds the foot of x: a triangle by its sides, a polygon by a ray's crossings.
 bool holds_foot(const ShapeSide& side, const SignedFeatures& signs, std::int32_t region, const Vec3& normal,
                 const Vec3& x) {
   const RegionShape* shape = side.shape.shapes.of_region(region);
@@ -168,8 +168,8 @@ bool holds_foot(const ShapeSide& side, const SignedFeatures& signs, std::int32_t
   return winding > 0;
 }
 
-/// Reads the signs of the conditions of a pair (pair_conditions.h): where feet are on their features, i(f, u) and i(g, -u), and
-/// whether nothing round either feature is nearer.
+/// Reads the signs of a pair's conditions (pair_conditions.h): whether feet are on their features,
+/// i(f, u) and i(g, -u), and whether nothing round either feature is nearer.
 class SignReader {
  public:
   SignReader(const SignedPair::Side& moving, const SignedPair::Side& fixed, double reach, const FeatureId& f,
@@ -195,7 +195,7 @@ class SignReader {
   static bool in_box(const ShapeSide&, double, const auto&) { return true; }
   static bool in_triangle(const ShapeSide&, double, const Vec3&, const Vec3&, const auto&) { return true; }
   static bool parallel(double) { return false; }
-  /// Reads first what rejects most: the distance of the lines.
+  /// The distance of the lines comes first: it rejects most pairs.
   bool crosses(const Line& a, const Line& b, const Vec3& product, double) {
     orientation_ = orientation_of(a.ends, b.ends);
     const double squared = product.squaredNorm();

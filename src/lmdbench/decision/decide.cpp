@@ -20,20 +20,20 @@ namespace lmdbench {
 
 namespace {
 
-/// A height over a plane, seen along a unit direction, is this many roundings accurate: plane and point are each to one.
+/// Error of a height over a plane, in roundings: one of the plane, one of the point.
 constexpr double HEIGHT_ROUNDINGS = 2.0;
-/// Points farther than this from the border of a region's pieces are where the pieces say, in roundings.
+/// Distance from the border of a region beyond which its polygon alone decides, in roundings.
 constexpr double CLEAR_ROUNDINGS = 2.0;
-/// Part along a chain of the vector between two crossing ones that the clamping of their feet leaves, in roundings.
+/// Largest part along a chain of the vector between clamped feet on crossing chains, in roundings.
 constexpr double SIDEWAYS_ROUNDINGS = 4.0;
-/// The direction square to two chains that cross at a small angle is off by this part of rounding / (sine * length).
+/// Error of the direction square to crossing chains, over rounding / (sine * length).
 constexpr double CROSSING_ROUNDING = 1.0 / 16.0;
-/// Larger errors of that direction are not granted: hierarchies bound directions to 2e-6 (POLAR_SLACK). Chains for which it is
-/// more are extended contacts where they face each other at all.
+/// Largest slack for that error: hierarchies bound directions to 2e-6 (POLAR_SLACK). Chains with a
+/// larger error have an extended contact, if any.
 constexpr double LARGEST_CROSSING_SLACK = 1e-6;
-/// A direction between points that rounding turns by a larger sine has to be in both cones at once: far below an angle between faces.
+/// Sine above which a direction between points must be in both cones at once; below face angles.
 constexpr double LARGEST_SINGLE_ERROR = 1e-3;
-/// What bounds a region from outside is granted more than its own condition, which comes last.
+/// Slack of the box or triangle round a region, in roundings; its own condition has less.
 constexpr double BOUND_ROUNDINGS = 8.0;
 
 /// Parameter of the point of a chain that is nearest to x.
@@ -41,14 +41,14 @@ double foot_on_line(const Line& line, const Vec3& x) {
   return std::clamp((x - line.ends[0]).dot(line.along) / (line.length * line.length), 0.0, 1.0);
 }
 
-/// Place of a plane along the direction n over the point x.
+/// Signed length from x along the direction n to a plane.
 double height_to(const Plane& plane, const Vec3& n, const Vec3& x) {
   LMDBENCH_EXPECTS(std::abs(plane.normal.dot(n)) > 0.5,
                    "a direction that is not near to the normal: only parallel features are asked");
   return plane.normal.dot(plane.point - x) / plane.normal.dot(n);
 }
 
-/// Grants each condition what rounding may have made of it, and appends the contacts of pairs that satisfy all.
+/// Gives each condition a slack for rounding, and appends the contacts of pairs that satisfy all.
 class Decision {
  public:
   Decision(const ShapePair& pair, const FeatureId& f, const FeatureId& g, ContactSet& found)
@@ -90,8 +90,8 @@ class Decision {
     return x.a.beyond(x.s) <= spare_ && x.b.beyond(x.t) <= spare_;
   }
   std::optional<Vec3> perpendicular(const Crossing& x) {
-    // Alone each is off by rounding / sine along its chain: the second foot is the first one's, and then the first the second's,
-    // which may have been clamped.
+    // Each foot alone is off by rounding / sine along its chain. So the second is the foot of the
+    // first, which may be clamped, and then the first the foot of the second.
     q_ = x.b.at(foot_on_line(x.b, x.a.at(clamped(x.s))));
     p_ = x.a.at(foot_on_line(x.a, q_));
     const Vec3 d = q_ - p_;
@@ -100,7 +100,7 @@ class Decision {
         std::max(std::abs(d.dot(x.a.along)) / x.a.length, std::abs(d.dot(x.b.along)) / x.b.length);
     if (distance_ > tolerance_.reach || sideways > SIDEWAYS_ROUNDINGS * tolerance_.rounding)
       return std::nullopt;
-    // d is known to rounding / length, the product of the chains the worse the smaller their angle, but also where they touch.
+    // d is known to rounding / length; the product also where chains touch, worse at small angles.
     const double shortest = std::min(x.a.length, x.b.length);
     const bool is_far = CROSSING_ROUNDING * distance_ > x.sine * shortest;
     Vec3 u = is_far ? Vec3(d / distance_) : Vec3(x.product / std::sqrt(x.squared_product));
@@ -116,7 +116,7 @@ class Decision {
     return u;
   }
 
-  /// BetweenPoints, SquareToLine
+  /// For BetweenPoints and SquareToLine.
   bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& d, const auto& /*how*/) const {
     return admits(side, feature_of(side), d / distance_, between_points(distance_));
   }
@@ -193,7 +193,7 @@ class Decision {
     const Vec3 n = direction_of(plane_m.normal, plane_f.normal);
     const PlanarFrame frame = frame_of_overlap(moving_, f_.index, fixed_, g_.index, plane_f.point, n);
     const auto gap_at = [&](const Vec3& x) { return height_to(plane_f, n, x) - height_to(plane_m, n, x); };
-    // Nearly parallel planes: their distance somewhere near bounds it all over.
+    // The distance of nearly parallel planes at one place bounds it everywhere.
     const double spread = tolerance_.largest_tilt * 4.0 * tolerance_.coordinates;
     const double somewhere = gap_at(plane_f.point);
     if (somewhere < -tolerance_.rounding - spread || somewhere > tolerance_.reach + spread) return;
@@ -227,16 +227,16 @@ class Decision {
   }
 
  private:
-  /// Cuts of two polygons that are narrower than this part of a rounding are none.
+  /// Overlaps of two polygons that are narrower than this part of a rounding are none.
   static constexpr double SLIVER = 0.125;
 
   const FeatureId& feature_of(const ShapeSide& side) const { return side.is_moving ? f_ : g_; }
   PolarSlack between_points(double distance) const {
     return {tolerance_.rounding, tolerance_.rounding / distance};
   }
-  /// The direction of a contact whose direction is that between its points: the one that both features admit, next to touch.
+  /// Direction of a contact between points; next to touch it is the one that both features admit.
   std::optional<KnownDirection> direction_between(const Vec3& u, double error) const {
-    // Over the length of the meshes a smaller one explains less than the tolerance.
+    // A smaller error moves nothing by more than the tolerance over the meshes.
     if (error * tolerance_.coordinates <= tolerance_.known) return KnownDirection{u, error};
     const double tilt = tolerance_.largest_tilt;
     for (const double sine : {0.0, tilt})
@@ -253,15 +253,15 @@ class Decision {
   }
   PolarSlack along_normal() const { return {HEIGHT_ROUNDINGS * tolerance_.rounding, 0.0}; }
 
-  /// What is clearly a way down, and no rounding or tilt that the tolerance explains: from a distance of rounding nothing leads down.
+  /// Slack for a wing: it leads down beyond rounding and tilt. At a distance of rounding none does.
   PolarSlack way_down(double distance) const {
     return {tolerance_.known,
             tolerance_.largest_tilt + tolerance_.rounding / std::max(distance, tolerance_.rounding)};
   }
 
-  /// Whether a point of a chain lies at an end of it, round which a way leads down: what closes the condition must not make a
-  /// minimum of the end of a slit.
-  /// @param spare  how far from the end is at the end [m]
+  /// Whether a point of a chain lies at an end where a wing leads down: a closed condition must not
+  /// make the end of a slit a minimum.
+  /// @param spare  distance within which a point is at the end [m]
   /// @param u_W  from the chain to the other mesh
   bool end_leads_down(const ShapeSide& side, const Line& line, double parameter, double spare,
                       const Vec3& u_W, double distance) const {
@@ -273,7 +273,7 @@ class Decision {
            ((1.0 - parameter) * line.length <= spare && does(ends[1]));
   }
 
-  /// Whether a point of a region's plane lies on the region, and no chain or corner there leads down along the region's normal.
+  /// Whether a point of a region's plane is on it, and no chain or corner there leads down.
   bool region_admits(const ShapeSide& side, const Vec3& p_S, const Vec3& n_W, double distance) const {
     const std::int32_t region = feature_of(side).index;
     const double reach = tolerance_.rounding;
@@ -302,8 +302,8 @@ class Decision {
     return holds && !some_lead_down;
   }
 
-  /// Direction of contact of two regions: the middle of their normals where both meshes were rounded or neither was,
-  /// else the normal of the one that was not.
+  /// Direction of contact of two regions: the mean of their normals if both meshes were rounded or
+  /// neither was; else the normal of the exact one.
   Vec3 direction_of(const Vec3& normal_moving, const Vec3& normal_fixed) const {
     const bool moving_is_rounded = moving_.surface.mesh.planar_tolerance > 0.0;
     if (moving_is_rounded == (fixed_.surface.mesh.planar_tolerance > 0.0))
@@ -311,7 +311,7 @@ class Decision {
     return moving_is_rounded ? Vec3(-normal_fixed) : normal_moving;
   }
 
-  /// Whether no place of an overlap is wider than what the meshes are known to: then its borders answer.
+  /// Whether an overlap is nowhere wider than half the tolerance: then its borders have contacts.
   bool is_thin(const OverlapPart& part) const {
     const double width = 0.5 * tolerance_.known;
     std::vector<Vec2> corners;
@@ -397,7 +397,7 @@ class Decision {
   const FeatureId f_, g_;  ///< Of the shapes.
   const ContactTolerance& tolerance_;
   ContactSet& found_;
-  // Of conditions that were met.
+  // Set by conditions that were met.
   double distance_ = 0.0;
   double spare_ = 0.0, unknown_ = 0.0;  ///< Of chains that cross.
   Vec3 p_, q_, u_;                      ///< Likewise.

@@ -13,18 +13,18 @@ struct ShapePair {
   ContactTolerance tolerance;
 };
 
-/// The definition of an LMD (DEFINITION.md) for two features of the shapes: appends what they share, nothing, a pair of points
-/// or where they are parallel one contact for each connected part. Depends on the two features and the pose alone, never on how
-/// planes are cut into triangles, on other pairs or on an order. Both `exhaustive` and `certified` ask it; they differ in the
-/// pairs that they ask.
+/// The definition of an LMD (DEFINITION.md) for two features. Appends what they share: nothing, a
+/// pair of points or, where parallel, one contact for each connected part. It depends on these
+/// features and the pose alone, not on other pairs, an order or the cut into triangles.
 ///
-/// Every condition is closed: it holds up to the rounding of what it compares, so that of neighbouring features at least one
-/// says yes. What two of them say of one place becomes one LMD afterwards (join_contacts.h).
+/// Conditions are closed: each holds up to rounding, so one of neighbouring features says yes.
+/// Several contacts of one place become one LMD afterwards (join_contacts.h).
 ///
-/// What bounds may rest on (certified/PROOF.md, lemma 2): a contact of (f, g) has its points in the convex hulls of f and g, a distance of at most
-/// `tolerance.reach`, and a direction within largest_tilt + rounding / distance + rounding / (the shortest wing) of f's polar
-/// cone, and likewise of g's. Corners have no tilt. Of a corner or a chain against a region, and of chains that cross,
-/// rounding / distance does not enter.
+/// Bounds may rest on (certified/PROOF.md, lemma 2): a contact of (f, g) has its points in the
+/// convex hulls of f and g, a distance of at most `tolerance.reach`, and a direction within
+/// largest_tilt + rounding / distance + rounding / (the shortest wing) of f's polar cone; likewise
+/// of g's. Corners have no tilt; corner or chain with region, and crossing chains, no rounding /
+/// distance.
 /// @param on_moving, on_fixed  leads (ShapeComplex); what is no feature of the shape has no contact
 void decide(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found);
 

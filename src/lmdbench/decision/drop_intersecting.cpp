@@ -12,13 +12,13 @@ namespace lmdbench {
 
 namespace {
 
-/// How far what two triangles share reaches from its centroid: a polygon's measure is an area and says little.
+/// Bound of the distance of points that two triangles share from their centroid (of a polygon).
 double crossing_reach(const ShapePair& pair, const Intersection& crossing) {
   const Triangle t = pair.fixed.surface.mesh.triangle(crossing.triangle_fixed);
   return std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
 }
 
-/// Whether two triangles have no more than rounding of each other on the inner side.
+/// Whether one triangle is nowhere more than 2 roundings below the plane of the other.
 bool only_touch(const ShapePair& pair, const Intersection& crossing) {
   const auto is_above = [&](const ShapeSide& side, std::int32_t triangle, const ShapeSide& other,
                             std::int32_t base) {
@@ -87,7 +87,7 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
     return std::accumulate(star.begin(), star.end(), std::size_t{0},
                            [](std::size_t sum, const Features* features) { return sum + features->size(); });
   };
-  // Beside hubs it is cheaper to ask every contact.
+  // At vertices of many triangles it is cheaper to ask every contact.
   if (size_of(of_moving) * size_of(of_fixed) > entries_.size()) {
     const auto holds = [](const auto& star, const FeatureId& feature) {
       return std::ranges::any_of(star, [&](const Features* features) {

@@ -15,13 +15,13 @@
 
 namespace lmdbench {
 
-/// Contacts no farther than rounding, looked up where triangles of their features intersect.
+/// Contacts no farther than rounding, by the features of triangles that intersect.
 class TouchingContacts {
  public:
   /// @param contacts  must outlive this
   TouchingContacts(const ShapePair& pair, const ContactPlaces& places, std::span<const Contact> contacts);
 
-  /// Calls visit(contact) for each that is where two triangles of its features intersect, until it returns false.
+  /// Calls visit(contact) for contacts where triangles of their features intersect, until false.
   /// @return whether visit never returned false
   bool for_each_at(const Intersection& crossing, const std::function<bool(const Contact&)>& visit);
   bool are_at(const Intersection& crossing) {
@@ -37,7 +37,7 @@ class TouchingContacts {
     const Contact* contact;
   };
   using Features = std::vector<FeatureId>;
-  /// What has a corner at a vertex, faces first; of the vertices that were asked for.
+  /// The features that have a corner at a vertex, faces first; filled as vertices are asked for.
   using FeaturesAt = std::unordered_map<std::int32_t, Features>;
   /// At each corner of a triangle.
   static std::array<const Features*, 3> star_of(const ShapeSide& side, std::int32_t triangle,
@@ -48,15 +48,15 @@ class TouchingContacts {
   FeaturesAt at_moving_, at_fixed_;
 };
 
-/// Takes the pairs of triangles out that share no more than rounding makes of two that touch, where a contact is: a part at
-/// rest keeps the contacts of its faces, with their directions, whichever way rounding turns.
+/// Takes out pairs of triangles at a contact that share no more than rounding makes of two that
+/// touch: a part at rest keeps its contacts of faces and their directions.
 /// @param intersections  of all fixed bodies
-/// @return what was taken out, all of one fixed body
+/// @return the pairs taken out, all of one fixed body
 std::vector<Intersection> take_touching(const ShapePair& pair, std::int32_t fixed_body,
                                         const ContactPlaces& places, std::span<const Contact> contacts,
                                         std::vector<Intersection>& intersections);
 
-/// Drops contacts nearer than rounding whose triangles intersect: they are reported as what intersects (intersections.h).
+/// Drops contacts nearer than rounding whose triangles intersect (reported by intersections.h).
 /// @param intersections  of all fixed bodies
 void drop_intersecting(const ShapePair& pair, std::int32_t fixed_body, const ContactPlaces& places,
                        std::span<const Intersection> intersections, std::vector<Contact>& contacts);

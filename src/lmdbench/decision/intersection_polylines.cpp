@@ -44,7 +44,7 @@ class Tracer {
       if (pierces(moving_edge(edge), PiercingBody::DISPLACED, b)) add({true, edge, t_fixed});
     for (const std::int32_t edge : fixed_.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)])
       if (pierces(fixed_edge(edge), PiercingBody::RESTING, a)) add({false, edge, t_moving});
-    // None: they touch, and the step takes them apart.
+    // Triangles that only touch have none, where ties are broken.
     if (count == 2) segments_.push_back(ends);
   }
 
@@ -53,7 +53,7 @@ class Tracer {
       for (const Piercing& end : segments_[s]) ends_.push_back({end, s});
     std::sort(ends_.begin(), ends_.end());
     used_.assign(segments_.size(), false);
-    // Open ones first, from their ends; what is left then is closed.
+    // Open polylines first, from their ends; the others are closed.
     for (const bool open : {true, false})
       for (std::size_t s = 0; s < segments_.size(); ++s)
         for (std::size_t k = 0; k < 2 && !used_[s]; ++k)

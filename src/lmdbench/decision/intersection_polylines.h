@@ -26,13 +26,13 @@ struct IntersectionPolyline {
   double length() const;  ///< metres
 };
 
-/// Chains the segments that pairs of triangles share. A point is where an edge of one mesh pierces a triangle of the
-/// other; two segments meet there because they name the same edge and triangle, not because their numbers are
-/// equal, and who pierces whom is decided exactly, for meshes that only touch too (triangle_intersection.h). So on closed
-/// meshes every polyline is closed, always. It ends where a mesh has a boundary, and where more than two triangles
-/// meet in an edge.
-/// @param pairs every pair of triangles of the two surfaces that shares a point; others do no harm. Sorted here.
-/// @param polylines receives the polylines of this body at its end, in an order that depends on the set alone
+/// Chains the segments that pairs of triangles share. A point is where an edge of one mesh pierces
+/// a triangle of the other. Segments meet there because they name the same edge and triangle, not
+/// because numbers are equal; who pierces whom is decided exactly, also of meshes that only touch
+/// (triangle_intersection.h). So polylines of closed meshes are closed. A polyline ends at a mesh's
+/// boundary, and where more than two triangles meet in an edge.
+/// @param pairs  all pairs of triangles that share a point; others do no harm. Sorted here.
+/// @param polylines  this body's are appended, in an order that depends on the set alone
 void append_polylines(const Surface& moving, const RigidTransform& X_WM, const Surface& fixed,
                       std::vector<CrossingPair>& pairs, std::vector<IntersectionPolyline>& polylines);
 

@@ -20,8 +20,8 @@ std::uint64_t number(const FeatureId& feature) {
   return static_cast<std::uint64_t>(feature.kind) << 32 | static_cast<std::uint32_t>(feature.index);
 }
 
-/// Which of several pairs of triangles with equal features counts: what shares most, then the first triangles. No order of a
-/// search.
+/// Whether the first of two pairs of triangles with equal features counts: it shares more, or is
+/// the first by triangles, in no order of a search.
 bool shares_more(const Intersection& a, const Intersection& b) {
   return std::tuple(-a.dimension, -a.measure, a.triangle_moving, a.triangle_fixed) <
          std::tuple(-b.dimension, -b.measure, b.triangle_moving, b.triangle_fixed);
@@ -57,7 +57,7 @@ void sort_by_features(std::vector<Intersection>& intersections) {
   intersections.swap(sorted);
 }
 
-/// Of the largest coordinate of both meshes: what a kernel's crossing may be off by (methods/certified/PROOF.md, lemma 11).
+/// Error of a crossing point over the largest coordinate (certified/PROOF.md, lemma 11).
 constexpr double CROSSING_ERROR = 1e-11;
 
 double extent_of(const Body& body) {
@@ -78,7 +78,7 @@ struct CrossingContact {
     measure += weight_of(piece);
     centroid += weight_of(piece) * piece.point;
   }
-  /// The nearest to the centroid, beyond what the kernels may differ by: that must not choose the name of a symmetric contact.
+  /// The piece nearest to the centroid; differences of rounding and kernels choose no other one.
   /// @param crossing_error  of a piece's point [m]
   void name(const Intersection& piece, double crossing_error) {
     constexpr double EQUALLY_NEAR = 1e-9;  // of the distance

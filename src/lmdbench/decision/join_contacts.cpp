@@ -27,11 +27,11 @@ namespace lmdbench {
 
 namespace {
 
-/// Pairs of features that a contact lies on, beyond which it is not looked for in buckets: hubs of fans.
+/// Contacts on more pairs of features (hubs of fans) are not joined over level ways.
 constexpr std::size_t MOST_CARRIER_PAIRS = 256;
-/// Tolerances from a face beyond which a point leaves a gap in it (parts_over_region) of more than two.
+/// Tolerances beside a face at which a point leaves a gap of more than two in a segment on it.
 constexpr double BESIDE = 8.0;
-/// Faces whose normals differ by more are of no one contact, far above what the tolerance and rounding make of a plane (largest_tilt, LARGEST_TURN).
+/// Faces whose normals differ by more are of no one contact; far above largest_tilt, LARGEST_TURN.
 constexpr double LARGEST_ANGLE = 0.01;
 
 bool contact_less(const Contact& a, const Contact& b) {
@@ -45,7 +45,7 @@ bool contact_less(const Contact& a, const Contact& b) {
   return place(a) < place(b);
 }
 
-/// A contact and one feature of either mesh that it lies on.
+/// A contact and the features that it lies on, one of each mesh.
 struct OnCarriers {
   std::int32_t moving, fixed;
   std::size_t contact;
@@ -65,14 +65,14 @@ bool intersect(std::span<const std::int32_t> a, std::span<const std::int32_t> b)
 }
 
 using Rows = std::pmr::vector<std::pair<std::size_t, std::size_t>>;
-/// Carriers of contacts, row after row in the order in which they were asked for.
+/// Carriers of contacts, in rows; the rows are in the order in which they were asked for.
 struct Carriers {
   std::vector<std::int32_t> items;
   Rows rows;  ///< First and count, a contact.
 };
 constexpr std::size_t NOT_KNOWN = std::numeric_limits<std::size_t>::max();
 
-/// Contacts of two meshes on their way to LMDs, or with `signs` to critical pairs.
+/// Makes LMDs of the contacts of two meshes, or critical pairs if `signs` is given.
 class Joining {
  public:
   struct Signs {
@@ -102,7 +102,7 @@ class Joining {
     }
     report_all();
     if (touching.empty()) return;
-    // What touches without an LMD intersects after all.
+    // Triangles that touch where no LMD was reported intersect after all.
     std::vector<Contact> reported;
     for (const std::size_t i : reported_) reported.push_back(contacts_[i]);
     TouchingContacts near(pair_, places_, reported);
@@ -113,7 +113,7 @@ class Joining {
  private:
   void join_all() {
     sort_contacts();
-    // The same pair of features may have been asked for twice.
+    // A pair of features may have been decided twice.
     contacts_.erase(std::unique(contacts_.begin(), contacts_.end(),
                                 [](const Contact& a, const Contact& b) {
                                   return a.dimension == b.dimension && name_of(a) == name_of(b) &&
@@ -145,7 +145,7 @@ class Joining {
     }
   }
 
-  /// Whether what is about as far away as a polygon that covers others is of its LMD, and nothing else is.
+  /// Whether the contacts within the spread of each covering polygon are just those of its LMD.
   bool covers_are_alone() {
     const auto root_of = [&](std::size_t i) { return ties_.empty() ? i : sets_.find_set(i); };
     std::pmr::vector<std::size_t> sizes(contacts_.size(), 0, &memory_);
@@ -166,7 +166,7 @@ class Joining {
     return true;
   }
 
-  /// Contacts are large: they move once, and nearly always their distances say which comes first.
+  /// Contacts are large: each moves once. Nearly always the distances alone give the order.
   void sort_contacts() {
     struct Key {
       double distance;
@@ -186,12 +186,12 @@ class Joining {
 
   // --- which contacts may be one
 
-  /// Contacts of which another one has the same distance: next to none but in flat contact.
+  /// Finds contacts that share their distance with another one; nearly none, but in flat contact.
   void find_ties() {
     LMDBENCH_EXPECTS(std::ranges::is_sorted(contacts_, {}, &Contact::distance),
                      "contacts appended after they were sorted");
     ties_.clear();
-    // The lower end of what is the same as some farther contact.
+    // Least distance at which a contact may be one with some farther contact.
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t i = contacts_.size(); i-- > 0;) {
       const double own = contacts_[i].distance - tolerance_.widest_tie(contacts_[i].distance);
@@ -201,7 +201,7 @@ class Joining {
     std::ranges::reverse(ties_);
   }
 
-  /// What a contact lies on, looked up when it is first asked for. Valid until the next contact is.
+  /// Features that carry a contact, looked up at the first call. Valid until the next call.
   std::span<const std::int32_t> carriers(std::size_t i, bool of_moving) {
     Carriers& own = of_moving ? carriers_moving_ : carriers_fixed_;
     auto& [first, count] = own.rows[i];
@@ -246,9 +246,9 @@ class Joining {
       join_over_level_ways();
   }
 
-  /// First the minima alone, so that they become the same LMDs as without the other critical pairs. Of these those that lie on an
-  /// extended LMD are of it, and a lowest pair in the place of an LMD is it, under another name at the pose at which indices are taken.
-  /// A saddle beside an LMD of points stays what it is, however near: it tells which minima meet there.
+  /// Minima are joined first, alone: they become the LMDs that they are without other critical
+  /// pairs. Then pairs on an extended LMD join it, as does the lowest pair at an LMD's place, which
+  /// differs in name only. Saddles beside LMDs of points stay: they tell which minima meet.
   void join_signed_ties() {
     const std::pmr::vector<std::size_t> all = ties_;
     std::erase_if(ties_, [&](std::size_t i) { return !contacts_[i].is_minimum; });
@@ -269,7 +269,7 @@ class Joining {
                          tolerance_.widest_tie(std::max(contacts_[i].distance, contacts_[j].distance)),
                      "contacts at unlike distances: no tolerance grows as a distance shrinks");
     const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
-    // Next to touch a contact whose direction is not known may lie on faces that stand at an angle: it is of one of them.
+    // A contact of unknown direction may meet faces at an angle: it joins one of them, not both.
     const std::size_t of_a = plane_of_[a], of_b = plane_of_[b];
     if (of_a != NOT_KNOWN && of_b != NOT_KNOWN &&
         (contacts_[of_a].direction - contacts_[of_b].direction).norm() > LARGEST_ANGLE)
@@ -291,7 +291,7 @@ class Joining {
     is_extended_[both] = is_extended;
   }
 
-  /// Joins contacts whose places meet: sweeps over their boxes along x.
+  /// Joins contacts whose places meet, by a sweep over their boxes along x.
   void join_what_meets() {
     struct Entry {
       Eigen::AlignedBox3d box;
@@ -320,15 +320,15 @@ class Joining {
   bool are_one_place(std::size_t i, std::size_t j) {
     const Contact &a = contacts_[i], &b = contacts_[j];
     const bool both_extended = a.dimension > 0 && b.dimension > 0;
-    // The parts of what one pair of features shares are known to be apart.
+    // Parts of the overlap of one pair of features are apart.
     if (both_extended && name_of(a) == name_of(b)) return false;
     return places_.have_one_direction(a, b) && places_.meet(a, b) &&
            (lie_on_one_pair(i, j) || (both_extended && are_neighbours(pair_.moving, a.moving, b.moving) &&
                                       are_neighbours(pair_.fixed, a.fixed, b.fixed)));
   }
 
-  /// Joins points and segments apart from each other between which the distance stays the same: next to touch, where the ends of
-  /// one chain over another one may both seem to be minima.
+  /// Joins points and segments that are apart, with an equal distance all the way between them:
+  /// next to touch both ends of a chain over another one may seem to be minima.
   void join_over_level_ways() {
     std::pmr::vector<OnCarriers> entries(&memory_), parts(&memory_);
     for (const std::size_t i : ties_) {
@@ -353,7 +353,7 @@ class Joining {
       // Not std::ranges::equal_range, which clang 14 cannot read.
       const auto first = std::ranges::lower_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
       const auto last = std::ranges::upper_bound(parts, carriers_of(entries[begin]), {}, carriers_of);
-      // What is clearly farther is looked at by itself.
+      // Clearly farther contacts form a bucket of their own.
       for (std::size_t at = begin; at < end;) {
         std::size_t next = at + 1;
         while (next < end && distance_of(entries[next]) - distance_of(entries[next - 1]) <=
@@ -366,8 +366,8 @@ class Joining {
     }
   }
 
-  /// Of contacts on one pair of features nearly all are one already, those of a face that lies on another one by the thousand.
-  /// Those that belong to parts of what a pair of regions shares are apart as the parts are.
+  /// Most contacts on one pair of features are joined already: of a face on a face by the thousand.
+  /// Those of different parts of two regions' overlap are apart.
   /// @param parts  polygons of that pair
   void join_in_bucket(std::span<const OnCarriers> bucket, std::span<const OnCarriers> parts) {
     std::pmr::vector<std::size_t> roots(&memory_), roots_of_parts(&memory_);
@@ -386,7 +386,7 @@ class Joining {
       if (is_level_way(bucket.front(), contacts_[i], contacts_[j])) join(i, j);
     };
     if (const auto order = order_along_line(bucket); !order.empty()) {
-      // The teeth of combs that cross: the way between two places leads over those between them.
+      // Teeth of crossed combs: the way between two places leads over those between them.
       for (std::size_t k = 1; k < order.size(); ++k) try_way(order[k - 1], order[k]);
       return;
     }
@@ -397,7 +397,7 @@ class Joining {
     }
   }
 
-  /// Contacts of one bucket whose places lie on one line on either mesh, at one distance, in their order along it; else nothing.
+  /// A bucket's order along a line, if its places are on one line of either mesh at one distance.
   std::pmr::vector<std::size_t> order_along_line(std::span<const OnCarriers> bucket) {
     using Vec6 = Eigen::Matrix<double, 6, 1>;
     std::pmr::vector<std::size_t> order(&memory_);
@@ -444,7 +444,7 @@ class Joining {
     const Vec3 p_b = nearest(b, b.ends_moving, b.point_moving, p_a);
     const Vec3 q_b = nearest(b, b.ends_fixed, b.point_fixed, q_a);
     const double way = (p_a - p_b).norm() + (q_a - q_b).norm();
-    // All along it nothing is nearer to first order: it is square to the direction.
+    // The way is square to the direction: nothing on it is nearer to first order.
     const Contact& farther = a.distance < b.distance ? b : a;
     const auto is_square = [&](const Vec3& step) {
       return std::abs(step.dot(farther.direction)) <=
@@ -457,8 +457,8 @@ class Joining {
            holds_segment(pair_.moving, on.moving, p_a, p_b) && holds_segment(pair_.fixed, on.fixed, q_a, q_b);
   }
 
-  /// Whether a point is so far beside a carrier that no segment through it stays there. Between places of a long outline nearly
-  /// always the middle is, which is sooner told than a segment.
+  /// Whether a point is too far from a carrier for a segment through it to stay there. Between
+  /// places of a long outline it nearly always is, and the test is cheaper than a segment's.
   bool is_beside(const ShapeSide& side, std::int32_t carrier, const Vec3& p) const {
     const RegionShape* shape = carrier < 0 ? nullptr : side.shape.shapes.of_region(carrier);
     return shape != nullptr && shape->clearly_holds(shape->frame.flat(side.point_to_surface(p)),
@@ -547,18 +547,18 @@ class Joining {
   const ContactTolerance& tolerance_;
   std::int32_t body_;
   std::vector<Contact>& contacts_;
-  /// Where a few hundred contacts find room without an allocation.
+  /// Room for a few hundred contacts without an allocation.
   std::array<std::byte, 1 << 15> room_;
   std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
   ContactPlaces places_;
   LmdSet* lmds_;
   const Signs* signs_;
-  /// Of the roots, while critical pairs that are no minima are joined.
+  /// Of the roots, set while critical pairs that are no minima are joined.
   std::vector<bool> has_minimum_, is_extended_;
   std::pmr::vector<std::size_t> ties_{&memory_}, ranks_{&memory_}, parents_{&memory_};
-  /// Of the roots: an extended contact that has its direction from a plane, or NOT_KNOWN.
+  /// Of the roots: an extended contact whose direction is a plane's, or NOT_KNOWN.
   std::pmr::vector<std::size_t> plane_of_{&memory_};
-  std::pmr::vector<std::size_t> reported_{&memory_};  ///< Contacts of LMDs no farther than the tolerance.
+  std::pmr::vector<std::size_t> reported_{&memory_};  ///< Of LMDs no farther than the tolerance.
   boost::disjoint_sets<std::size_t*, std::size_t*> sets_{nullptr, nullptr};
   Carriers carriers_moving_{{}, Rows(&memory_)}, carriers_fixed_{{}, Rows(&memory_)};
 };

@@ -14,8 +14,8 @@ namespace lmdbench {
 
 namespace {
 
-/// Share of the rounding by which a segment along a piece's side still lies in the piece. Less than the whole, because at a
-/// small angle to the side it moves the segment's ends by as much over that angle.
+/// Share of the rounding by which a segment along a piece's side still lies in the piece. At a
+/// small angle to the side the segment's ends move by so much over that angle.
 constexpr double SIDE_ROUNDING = 0.125;
 
 void append_sides_of(const ConvexPolygon& polygon, std::vector<PolygonSide>& sides) {
@@ -101,7 +101,7 @@ std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_
     many.append_sides(of_many);
   } else {
     const std::vector<std::int32_t> near = many.pieces_near(of_few, rounding);
-    // All that is near is more than the border.
+    // So many pieces have more sides than the border.
     if (2 * near.size() > many.size())
       many.append_sides(of_many);
     else
@@ -180,7 +180,7 @@ SegmentParts parts_over_region(const Vec3& begin_S, const Vec3& end_S, const Sha
 
 bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const Vec3& p_S, double reach) {
   const Triangle t = side.surface.mesh.triangle(face);
-  // Beyond a side: nearly all that are asked are.
+  // Nearly all points asked for lie beyond a side.
   if ((t[1] - t[0]).cross(t[2] - t[0]).dot(n_S) > 0.0)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 along = t[(k + 1) % 3] - t[k];

@@ -20,25 +20,25 @@ struct OverlapPart {
   Vec2 centroid = Vec2::Zero();
 };
 
-/// A frame square to a direction in which the overlap of two regions is swept: its first axis is that of the region of more
-/// pieces, so that pieces that lie on top of each other share level sides, which the sweep passes over.
+/// A frame square to a direction, for the sweep over the overlap of two regions. Its first axis is
+/// that of the region of more pieces: then pieces on top of each other share level sides.
 PlanarFrame frame_of_overlap(const ShapeSide& moving, std::int32_t region_moving, const ShapeSide& fixed,
                              std::int32_t region_fixed, const Vec3& point, const Vec3& n);
 
-/// What two regions share, seen along the normal of `frame_W` (frame_of_overlap): one sweep over the borders of both
-/// (polygon_sweep.h), of a large region only the pieces near the other one. Rounding adds or loses a sliver and nothing else, and
-/// centroids are continuous.
-/// @param rounding  what is no wider is none; what comes this near touches [m]
+/// What two regions share, seen along the normal of `frame_W` (frame_of_overlap): one sweep over
+/// both borders (polygon_sweep.h), of a large region only over pieces near the other one. Rounding
+/// adds or loses no more than a sliver; centroids are continuous.
+/// @param rounding  no narrower part counts; parts that come this near touch [m]
 std::vector<OverlapPart> overlap_of_regions(const ShapeSide& moving, std::int32_t region_moving,
                                             const ShapeSide& fixed, std::int32_t region_fixed,
                                             const PlanarFrame& frame_W, double rounding);
 
-/// Nearly always one.
+/// Nearly always one part.
 using SegmentParts = boost::container::small_vector<SegmentPart, 4>;
 
-/// Parts of a segment in a region's plane that lie in the region, by parameters from 0 at its first end to 1.
+/// Parts of a segment in a region's plane that lie in the region, by parameters from 0 to 1.
 /// @param begin_S, end_S  frame of the region's mesh
-/// @param rounding  parts that are no longer are none; parts that come this near are one [m]
+/// @param rounding  no shorter part counts; parts that come this near are one [m]
 SegmentParts parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
                                std::int32_t region, double rounding);
 
@@ -46,7 +46,7 @@ SegmentParts parts_over_region(const Vec3& begin_S, const Vec3& end_S, const Sha
 /// @param n_S  the plane's normal; frame of the mesh, as p_S is
 bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const Vec3& p_S, double reach);
 
-/// Calls visit(face) for the faces of a region on which a point of its plane lies (is_on_face), until it returns false.
+/// Calls visit(face) for a region's faces that hold a point of its plane (is_on_face), until false.
 /// @return whether visit never returned false
 template <class Visit>
 bool for_each_face_at(const ShapeSide& side, std::int32_t region, const Vec3& p_S, double reach,

@@ -12,7 +12,7 @@ namespace lmdbench {
 /// A chain at a pose.
 struct Line {
   std::array<Vec3, 2> ends;
-  Vec3 along;  ///< From end to end.
+  Vec3 along;  ///< From the first end to the second.
   double length;
 
   Line(const ShapeSide& side, std::int32_t lead)
@@ -24,13 +24,13 @@ struct Line {
   double beyond(double parameter) const { return std::max(-parameter, parameter - 1.0) * length; }
 };
 
-// How a direction d from one feature to the other is known, and so how it changes when the mesh moves.
+// How a direction d from one feature to the other is known, so how it changes with the pose.
 
 /// The difference of two points: changes with their displacement.
 struct BetweenPoints {
   const Vec3 &from, &to;
 };
-/// From a point to its foot on a line, or back: the part of the displacement square to the line.
+/// From a point to its foot on a line, or back: changes with the displacement square to the line.
 struct SquareToLine {
   const Vec3& point;
   const Line& line;
@@ -40,7 +40,7 @@ struct AlongNormal {
   const Vec3& point;   ///< The corner over it.
   const Vec3& normal;  ///< Of the plane, unit length or longer; d is against it.
 };
-/// Along the common perpendicular of two lines, at s and t of their lengths: turns as they turn against each other.
+/// Along the common perpendicular of two lines, at parameters s and t: turns as they turn.
 struct Crossing {
   const Line &a, &b;  ///< Of the moving mesh and of the fixed one.
   Vec3 product;
@@ -58,13 +58,13 @@ struct Crossing {
   }
 };
 
-/// What two features have to satisfy to share a contact (DEFINITION.md), condition by condition. One text for all who ask: the
-/// definition (decide.cpp), the filter that rejects and says for how long (certified/filter.cpp), the indices of critical pairs
-/// (critical_index.cpp). They differ in what they grant each condition, and in what they make of pairs that satisfy all.
+/// Conditions under which two features share a contact (DEFINITION.md), one text for the definition
+/// (decide.cpp), the filter that rejects pairs and says for how long (certified/decide/filter.cpp),
+/// and indices of critical pairs (critical_index.cpp). Each has its own slack and use of the rest.
 ///
-/// A visitor is handed each condition as what it is, in order, until it answers false. `from` is the side of the feature that the
-/// condition's point is on; gradients are those of the condition's value, for a displacement of the moving mesh, and are asked for
-/// when a pair is rejected.
+/// A visitor gets conditions one by one until it answers false. `from` is the side of the
+/// condition's point. A gradient is of the condition's value for a displacement of the moving mesh;
+/// it is called when a pair is rejected.
 ///
 /// | call | the value that must not be negative |
 /// |---|---|
@@ -72,16 +72,16 @@ struct Crossing {
 /// | near(from, p, q, d) | reach - abs d, d = q - p |
 /// | above(from, height, gradient) | height of a point over a plane [m] |
 /// | below_reach(from, height, gradient) | reach - height; gradient of the height |
-/// | foot_on(from, p, line, parameter) | how far a point's foot is from the ends of a chain, inwards [m] |
+/// | foot_on(from, p, line, parameter) | how far a foot is from the ends of a chain, inwards [m] |
 /// | in_box(from, inside, gradient) | how far it is from the sides of a region's box, inwards [m] |
-/// | in_triangle(from, inside, side, opposite, gradient) | the same for a side of a triangle, times the side's length |
+/// | in_triangle(from, inside, side, opposite, gradient) | the same of a triangle, times the side |
 /// | crosses(lines, product, sine) | the sine between two lines, less what parallel ones have |
 /// | feet_on(crossing) | how far both feet are from the ends, inwards [m] |
 /// | perpendicular(crossing) | reach - its length; answers d, or nothing |
-/// | parallel(sine) | the tilt that the tolerance explains, less that between chain and plane, or two planes |
+/// | parallel(sine) | largest tilt of the tolerance, less that of chain and plane or two planes |
 /// | in_cone(from, lead, d, how) | - d . w / abs w for each wing w; d outwards |
 ///
-/// What has passed all is handed to share_points, share_foot, share_height, share_perpendicular, face_region or face_each_other.
+/// A pair that passes all goes to one of the functions share_..., face_region or face_each_other.
 template <class Visitor>
 class PairConditions {
  public:
@@ -141,7 +141,7 @@ class PairConditions {
       visit_.share_height(a, p, b, plane, height);
   }
 
-  /// In the triangle, or the bounding box of a region of several; what decides in the end is share_height's.
+  /// In the triangle, or in the box of a larger region; share_height has the last word.
   bool foot_in_bounds(const ShapeSide& a, const Vec3& p, const ShapeSide& b, std::int32_t face,
                       const Plane& plane) const {
     if (const RegionShape* shape = b.shape_of_lead(face)) {

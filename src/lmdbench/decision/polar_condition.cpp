@@ -17,9 +17,9 @@ bool admits_wing(const Vec3& u, const Vec3& wing, const PolarSlack& slack) {
   return slack.sine >= 0.0 && along <= slack.length ? true : along <= slack.length + slack.sine * wing.norm();
 }
 
-/// Corners of more wings are taken with the direction that they have: every two wings give a direction to try.
+/// Corners of more wings keep the direction they have: every two wings give one to try.
 constexpr std::size_t MOST_WINGS = 64;
-/// The corner of two slacks is at most this many times as far as either, for planes at 30 degrees and more.
+/// Where two slacks meet, at most so many times as far off as either, for planes at >= 30 degrees.
 constexpr double CORNER_OF_SLACKS = 4.0;
 /// Sine of the angle between two planes below which they have no direction in common.
 constexpr double PARALLEL = 1e-9;
@@ -37,7 +37,7 @@ void append_bounds(const ShapeSide& side, const FeatureId& feature, std::vector<
   side.shape.for_each_wing(side.surface, feature, add);
 }
 
-/// `admits` for a direction that of a chain is square to it up to `tilt`.
+/// `admits`, for a direction that is square to a chain up to `tilt`.
 bool admits_about(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack,
                   double tilt) {
   if (feature.kind == FeatureKind::EDGE) {
@@ -66,7 +66,7 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   append_bounds(moving, f, bounds);
   append_bounds(fixed, g, bounds);
   if (bounds.size() > MOST_WINGS) return KnownDirection{u_W, error};
-  // What is in both cones is bounded by one or two of the planes. Of that the direction nearest to u lies in one or two, too.
+  // One or two planes hold a bounding direction of both cones, and the one nearest to u.
   std::vector<Vec3> admitted;
   const auto consider = [&](const Vec3& x) {
     const double length = x.norm();
@@ -86,7 +86,7 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   if (admitted.empty()) return std::nullopt;
   const auto off_u = [&](const Vec3& x) { return (x - u_W).squaredNorm(); };
   KnownDirection known{*std::ranges::min_element(admitted, {}, off_u), 0.0};
-  // Two conditions that hold to the error each may hold together at some more.
+  // Each condition holds to the error; both together hold farther away.
   if (error < 1.0 && (known.u - u_W).norm() > CORNER_OF_SLACKS * error) return std::nullopt;
   for (const Vec3& x : admitted) known.error = std::max(known.error, (x - known.u).norm());
   if (error < 1.0) known.error = std::min(known.error, error);

@@ -17,31 +17,31 @@ struct PolarSlack {
 /// Whether a direction in the mesh's frame leaves a feature on its outer side, where it has one.
 bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S);
 
-/// Whether a direction lies in the outward polar cone of a corner or chain: no wing has a component along it, and it is on
-/// the outer side where the feature has one.
+/// Whether a direction lies in the outward polar cone of a corner or chain: no wing rises along it,
+/// and it is on the outer side where the feature has one.
 /// @param feature  its index counts corners or chains
-/// @param u_W      unit length, from the feature to the other mesh; of a chain square to it up to rounding
+/// @param u_W  unit length, from the feature to the other mesh; square to a chain up to rounding
 bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack);
 
 /// A unit vector, and the sine of the angle by which rounding may have turned it.
 struct KnownDirection {
   Vec3 u;
   double error;
-  bool is_strict = false;  ///< In both cones by more than that.
+  bool is_strict = false;  ///< In both cones by more than `error`.
 };
 
-/// The direction nearest to u that a corner or chain of either mesh admits, in both cones at once: next to touch, where rounding turns
-/// the direction between two points by more than angles between faces, each cone by itself would admit another one.
-/// @param f, g   index counts corners or chains
-/// @param error  sine of the angle by which u may be off; 1 where it says nothing
+/// The direction nearest to u that both features admit. Next to touch rounding turns the direction
+/// between two points by more than angles between faces; each cone alone would admit another.
+/// @param f, g  index counts corners or chains
+/// @param error  sine of the angle by which u may be off; 1: u says nothing
 /// @param slack  of a direction that is known
-/// @param tilt   sine by which it may be off square to a chain
-/// @return nothing where there is none that near; its error is what both cones leave of that of u
+/// @param tilt  largest sine by which a direction may be off square to a chain
+/// @return nothing if none is that near; its error is at most what both cones leave open
 std::optional<KnownDirection> common_direction(const ShapeSide& moving, const FeatureId& f,
                                                const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
                                                double error, const PolarSlack& slack, double tilt);
 
-/// Whether a wing of a corner or chain leads towards the other mesh: has more of the direction than the slack.
+/// Whether a wing of a corner or chain leads towards the other mesh: u . w exceeds the slack.
 bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack);
 
 }  // namespace lmdbench

@@ -14,8 +14,8 @@ namespace lmdbench {
 
 namespace {
 
-/// Relative difference within which two pieces are equally near to a centroid: rounding must not choose the name of a
-/// symmetric contact.
+/// Relative difference within which two pieces are equally near to a centroid: rounding must not
+/// choose the name of a symmetric contact.
 constexpr double EQUALLY_NEAR = 1e-9;
 
 Contact middle_of_polygons(const ContactPointers& pieces) {
@@ -38,8 +38,8 @@ Contact middle_of_polygons(const ContactPointers& pieces) {
   return whole;
 }
 
-/// An order of places that depends neither on the pose nor on how the meshes are cut: by coordinates in the moving mesh's frame,
-/// where they differ by more than the tolerance.
+/// An order of places that depends neither on the pose nor on the cut into triangles: by
+/// coordinates in the moving mesh's frame that differ by more than the tolerance.
 bool lies_before(const ShapePair& pair, const Contact& a, const Contact& b) {
   const Vec3 p = pair.moving.point_to_surface(a.point_moving),
              q = pair.moving.point_to_surface(b.point_moving);
@@ -48,8 +48,8 @@ bool lies_before(const ShapePair& pair, const Contact& a, const Contact& b) {
   return false;
 }
 
-/// The longest. Borders that lie over each other have one length, but for rounding, with each other and with the faces behind
-/// them: of these the first by kind and then by place, so that neither rounding nor the cut into triangles chooses.
+/// The longest. Borders over each other, and faces behind them, have equal lengths up to rounding:
+/// of these the first by kind, then by place, whatever rounding or the cut into triangles.
 const Contact& longest_segment(const ShapePair& pair, const ContactPointers& pieces) {
   const double length =
       (*std::ranges::max_element(pieces, {}, &Contact::measure))->measure - pair.tolerance.known;
@@ -63,8 +63,8 @@ const Contact& longest_segment(const ShapePair& pair, const ContactPointers& pie
   return *longest;
 }
 
-/// The centroid of what segments on one line cover, each part once; nothing where they are on several lines or it is on none
-/// of them.
+/// The centroid of segments on one line, parts that overlap counted once. Nothing if they lie on
+/// several lines or it lies on none of them.
 std::optional<Contact> middle_of_segments(const ShapePair& pair, const ContactPointers& pieces) {
   const Contact& longest = longest_segment(pair, pieces);
   if (pieces.size() == 1) return longest;
@@ -101,8 +101,8 @@ std::optional<Contact> middle_of_segments(const ShapePair& pair, const ContactPo
   return whole;
 }
 
-/// The nearest. Of several at one distance that are apart, one between features of the highest kind, which is where the
-/// minimum stays when the meshes are tilted further, and of those the first by place; of those in one place the first by name.
+/// The nearest. Of several at one distance one between features of the highest kind, where the
+/// minimum stays if the tilt grows; then the first by place; in one place the first by name.
 const Contact* nearest_contact(const ShapePair& pair, ContactPlaces& places, ContactPointers& contacts) {
   const double least =
       (*std::ranges::min_element(contacts, {}, [](const Contact* c) { return c->distance; }))->distance;
@@ -123,7 +123,7 @@ const Contact* nearest_contact(const ShapePair& pair, ContactPlaces& places, Con
       contacts, {}, [](const Contact* contact) { return std::pair(contact->moving, contact->fixed); });
 }
 
-/// The contact whose place is nearest to the middle of several; of those equally near the first by name.
+/// The contact whose place is nearest to the middle; of those equally near the first by name.
 const Contact* nearest_to(const ShapePair& pair, const ContactPlaces& places, const Contact& middle,
                           const ContactPointers& contacts) {
   const Contact* namesake = nullptr;

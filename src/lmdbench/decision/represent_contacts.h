@@ -14,21 +14,21 @@ namespace lmdbench {
 
 using ContactPointers = std::pmr::vector<const Contact*>;
 
-/// What stands for the contacts of an LMD.
+/// The contact that represents an LMD.
 struct Representative {
-  std::optional<Contact> middle;      ///< The centroid of several; nothing where one of them represents all.
+  std::optional<Contact> middle;      ///< Centroid of polygons or segments; else none.
   const Contact* namesake = nullptr;  ///< Its features name the LMD.
 
   const Contact& contact() const { return middle ? *middle : *namesake; }
 };
 
-/// The centroid of the polygons among the contacts; else of the segments, where that lies on one of them; else the nearest contact.
-/// Contacts higher than the lowest by more than what one distance may vary do not count (rule K).
-/// @param contacts  minima, nearest first, one of them at least a pair of points
+/// The centroid of the polygons; else of the segments if one line holds all and one of them it;
+/// else the nearest points. Contacts higher than the tolerance over the lowest are out (rule K).
+/// @param contacts  minima, nearest first, at least one of them a pair of points
 Representative represent_contacts(const ShapePair& pair, ContactPlaces& places,
                                   const ContactPointers& contacts);
 
-/// A contact as LMD, named after the mesh features of another one's place that is nearest to it.
+/// A contact as LMD. Its names are of the mesh features at the place of `namesake` nearest to it.
 Lmd make_lmd(const ShapePair& pair, const ContactPlaces& places, const Contact& contact,
              const Contact& namesake, std::int32_t fixed_body);
 

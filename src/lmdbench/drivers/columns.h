@@ -15,8 +15,8 @@
 #include <variant>
 #include <vector>
 
-/// The columns of a method's records, as complete results (`write_result.h`) and parts of runs under way
-/// (`run_keeper.h`) hold them: one definition of names, units and values for both.
+/// Columns of a method's records, their names, units and values: for complete results
+/// (`write_result.h`) and parts of runs under way (`run_keeper.h`).
 namespace lmdbench {
 
 /// One number, flag or vector of every row.
@@ -39,10 +39,10 @@ Column<Row> column(std::string name, std::string units, std::string long_name, V
           std::function<Type(const Row&)>(std::move(value))};
 }
 
-/// A method of the experiment; among instances with what a world counts.
+/// A method of the experiment; with instances also the counters of a world.
 MethodDescription described(const Experiment& experiment, const std::string& name);
 
-/// @param torque   whether the torque before clipping is among them
+/// @param torque   whether to have the torque before clipping
 /// @param indices  whether LMDs without an index are counted
 std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, bool torque, bool indices);
 /// Empty for a method without searches at a rate of their own.

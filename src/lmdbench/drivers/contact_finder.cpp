@@ -27,7 +27,7 @@ double minimum_area_of(const Scene& scene, double share) {
   return share * scene.cutoff * diagonal;
 }
 
-/// A patch of the first mesh of a pair as the second one feels it: at the other end of the distance.
+/// A patch of the first mesh of a pair as the second one feels it, at the distance's other end.
 SurfaceSample turned_round(const SurfaceSample& sample) {
   SurfaceSample turned = sample;
   turned.point_moving += sample.distance * sample.direction;
@@ -119,7 +119,7 @@ void ContactFinder::split(const LmdSet& lmds) {
   }
   if (is_sum()) return;
   take(lmds);
-  // Each of a mover's pairs as the mover sees it; places in its own set for what the others are called by.
+  // Each of a mover's pairs as the mover sees it; the others name pairs by their place in its set.
   std::vector<std::size_t> place(critical_.size());
   for (std::size_t mover = 0; mover < parts_.size(); ++mover) {
     Part& part = parts_[mover];

@@ -15,35 +15,35 @@ namespace lmdbench {
 /// Constants of `layered`.
 struct LayeredChoice {
   double patch_cutoff = PATCH_CUTOFF;  ///< SurfaceSampler's.
-  /// ForceInput::minimum_area over the product of the cutoff and the smallest mesh's diagonal: so small that minima only lend a
-  /// direction to what has no patch yet. `lmdbench-study continuous-force --part bores --minimum-area` sweeps it.
+  /// ForceInput::minimum_area over cutoff * the smallest mesh's diagonal: minima only direct
+  /// components without a patch (`lmdbench-study continuous-force --part bores --minimum-area`).
   double minimum_area_share = 0.025;
 };
 
-/// Finds of a pose what an aggregation needs to know, and combines it into force and torque.
+/// Finds what an aggregation needs of a pose and combines it into force and torque.
 ///
-/// A force is of a pair of objects: what saddles join, and patches of surface, are looked for pair by pair, in the frame of the second where
-/// the scene has instances or several movers. An object feels the sum over its pairs.
+/// A force is of a pair of objects: merges and patches of surface are found pair by pair, with
+/// instances or several movers in the second one's frame. An object feels the sum of its pairs.
 class ContactFinder {
  public:
-  /// @param scene  that of the method which will search; read where the aggregation needs more than critical pairs
+  /// @param scene  the searching method's; read if the aggregation needs more than critical pairs
   ContactFinder(const Aggregation& aggregation, Scene scene, const LayeredChoice& layered = {});
 
   const Aggregation& aggregation() const { return aggregation_; }
 
-  /// Finds the LMD set, as Method::search does, and what else the aggregation needs.
+  /// Finds the LMD set, as Method::search does, and all else that the aggregation needs.
   /// @pre the method finds critical pairs, unless the aggregation needs minima alone
   void search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters);
 
-  /// Of `Scene::moving`.
-  /// @param lmds  Sorted by `lmd_less`: of the last search, less those beyond the profile's cutoff, with directions that may have
-  ///              been remembered (E12). `sum` takes any set.
-  /// @param method  that made the last search: where it has a force of its own, that takes the aggregation's place. How such a force
-  ///                changes with the pose is not known: its stiffness is NaN.
+  /// Wrench on `Scene::moving`.
+  /// @param lmds  Sorted by `lmd_less`: the last search's, up to the profile's cutoff, some with
+  /// remembered directions (E12). `sum` takes any set.
+  /// @param method  that made the last search. A force of its own replaces the aggregation; its
+  /// stiffness, a slope with the pose, is NaN.
   Wrench combine(const LmdSet& lmds, const ForceProfile& profile, const Vec3& reference_W,
                  const Method* method = nullptr);
 
-  /// Several meshes that move: the set of each, for `set_of` and `wrench_on`.
+  /// Splits the set of several movers, for `set_of` and `wrench_on`.
   /// @param lmds  as of `combine`
   void split(const LmdSet& lmds);
   /// LMDs of a mover's pairs, turned round where it is the second of the pair.
@@ -56,8 +56,8 @@ class ContactFinder {
   /// Search and combination in one.
   Wrench wrench_at(Method& method, const Pose& X_WM, const ForceProfile& profile, const Vec3& reference_W);
 
-  /// LMDs of the last search up to `cutoff` that have no index (CriticalPair::has_index): where they are born or die the force may
-  /// jump. 0 for an aggregation that needs minima alone.
+  /// LMDs of the last search up to `cutoff` without an index (CriticalPair::has_index): the force
+  /// may jump at their birth or death. 0 if the aggregation needs minima alone.
   std::int64_t without_index(double cutoff) const;
 
  private:

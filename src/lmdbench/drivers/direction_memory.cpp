@@ -13,7 +13,7 @@ std::int64_t DirectionMemory::complete(LmdSet& lmds) {
   const double reach = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
   known_.clear();
   for (Lmd& lmd : lmds) {
-    // A method may have carried the direction along itself; distance 0 tells that it is not the frame's own.
+    // A method may have kept the direction; distance 0 tells that it is not this frame's.
     if (!(lmd.distance > 0.0)) ++without_direction;
     if (lmd.direction.hasNaN()) {
       double nearest_squared = reach * reach;

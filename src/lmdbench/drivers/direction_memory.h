@@ -9,15 +9,14 @@
 
 namespace lmdbench {
 
-/// Decision E12, ours: triangles that touch have no direction between them, so an LMD at distance 0
-/// keeps the last valid one: that of the same feature pair a frame ago, else that of the nearest
-/// LMD of that frame on the same fixed mesh. The representative of a contact may lie far from the points that met first: two
-/// faces at a small angle cross along a line as long as they are, so the frame before lends however far its LMD is.
-/// An older frame, which need not know of this contact, lends within reach of the cutoff. Without either it
-/// stays without direction and exerts no force.
+/// Decision E12, ours: triangles that intersect have no direction. An LMD at distance 0 keeps the
+/// last valid one: of the same feature pair a frame ago, else of the nearest LMD of that frame on
+/// the same fixed mesh, however far it is: faces at a small angle cross along a long line, and the
+/// contact's representative may be far from the first points. An older frame lends within the
+/// cutoff. Without either the LMD has no direction and exerts no force.
 class DirectionMemory {
  public:
-  /// @param cutoff how far the LMD of an older frame may lie from the one that borrows its direction [m]
+  /// @param cutoff how far an older frame's LMD may be from one that borrows its direction [m]
   explicit DirectionMemory(double cutoff) : cutoff_(cutoff) {}
 
   /// Sets of up to so many LMDs need no memory from then on.

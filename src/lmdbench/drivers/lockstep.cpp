@@ -278,8 +278,8 @@ std::vector<MethodRecord> run_lockstep(const std::vector<DrivenMethod>& methods,
   const std::int64_t total = frame_count * method_count * driver.repetitions;
   std::vector<MethodRecord> records;
   std::int64_t done = 0;
-  // In a fixed order one method would always find the caches that the same other one left: random, and the same in
-  // every run, since only times depend on it.
+  // Random: in a fixed order each method finds the same other one's caches. The same in every run:
+  // only times depend on it.
   std::vector<std::size_t> turns(methods.size());
   std::iota(turns.begin(), turns.end(), std::size_t{0});
   std::mt19937 shuffled(0);

@@ -10,9 +10,9 @@
 #include <string>
 
 /// Slowdowns on purpose, to measure how surely `lmdbench compare` finds them: a build with
-/// -DLMDBENCH_PLANTED_SLOWDOWN=ON takes "LABEL:STAGE:PERCENT" from the environment variable LMDBENCH_PLANTED,
-/// e.g. "improved:search:5", and works that much longer in every call of that stage. In every other build all
-/// of it is empty and costs nothing.
+/// -DLMDBENCH_PLANTED_SLOWDOWN=ON reads "LABEL:STAGE:PERCENT" from LMDBENCH_PLANTED, e.g.
+/// "improved:search:5", and works that much longer in every call of that stage. Other builds have
+/// none of it, at no cost.
 namespace lmdbench {
 
 /// Extra time of each stage of one method, as a share of the time that its work takes.

@@ -18,15 +18,15 @@ namespace lmdbench {
 
 /// What the simulated device did in one frame, beside the pose that it told.
 struct LoopFrame {
-  Vec3 position = Vec3::Zero();  ///< True place of the mesh's origin at the frame's tick, world [m].
+  Vec3 position = Vec3::Zero();  ///< True, of the mesh's origin at the frame's tick, world [m].
   Vec3 velocity = Vec3::Zero();  ///< Of that point at the tick [m/s].
-  RenderedForce held;            ///< From this tick to the next: what was rendered `delay_frames` frames ago.
+  RenderedForce held;            ///< Until the next tick: rendered `delay_frames` frames ago.
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< True, at the tick.
-  Vec3 angular_velocity = Vec3::Zero();                             ///< With six degrees of freedom [rad/s].
-  EnergyAccount energy;                                             ///< Since the start, at the tick.
+  Vec3 angular_velocity = Vec3::Zero();                             ///< With six degrees [rad/s].
+  EnergyAccount energy;                                             ///< Since the start.
 };
 
-/// Where one method's poses come from, frame by frame. A path does not care what is rendered; a closed loop does.
+/// Poses of a method, frame by frame: of a path, or of a device that rendered forces move.
 class PoseSource {
  public:
   virtual ~PoseSource() = default;
@@ -53,7 +53,7 @@ class PathPoses final : public PoseSource {
   std::size_t frame_ = 0;
 };
 
-/// Poses of a simulated device: the closed loop. It starts at rest where the path starts; its poses are what its encoders tell.
+/// Poses of a simulated device (closed loop), as its encoders tell; at rest at the path's start.
 class DevicePoses final : public PoseSource {
  public:
   /// @param path         the meant path, one pose a frame

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-/// What a run leaves in memory. Everything but times is the same in every repetition, so it is kept once.
+/// Records of a run in memory. All but times is the same in every repetition and kept once.
 namespace lmdbench {
 
 inline constexpr double UNSET = std::numeric_limits<double>::quiet_NaN();
@@ -24,18 +24,18 @@ inline constexpr double UNSET = std::numeric_limits<double>::quiet_NaN();
 /// A haptic frame of one method, without its times.
 struct FrameRecord {
   Vec3 force = Vec3::Zero();   ///< As rendered: after the device's clipping [N].
-  Vec3 torque = Vec3::Zero();  ///< About the moving mesh's centre, before the device's clipping [N m].
+  Vec3 torque = Vec3::Zero();  ///< About the moving mesh's centre, before clipping [N m].
   bool force_clipped = false;
   bool force_above_continuous = false;         ///< More than the device's motors stand for long.
   std::int64_t lmd_count = 0;                  ///< LMDs within the cutoff.
-  std::int64_t tracked_count = 0;              ///< LMDs of the set in use, beyond the cutoff or not.
-  double lmd_count_before_reduction = UNSET;   ///< Candidates of the search that the set in use comes from.
+  std::int64_t tracked_count = 0;              ///< LMDs of the set in use, also beyond the cutoff.
+  double lmd_count_before_reduction = UNSET;   ///< Candidates of the search behind the set in use.
   double minimum_distance = UNSET;             ///< metres
-  double lmd_age = UNSET;                      ///< Since the pose that the set in use was searched at [s].
+  double lmd_age = UNSET;                      ///< Since the search of the set in use [s].
   double effective_stiffness = 0.0;            ///< K_eff [N/m] before clipping.
-  std::int64_t contact_without_direction = 0;  ///< LMDs at distance 0 with no direction of their own (E12).
-  std::int64_t lmds_without_index = 0;  ///< Under an aggregation that asks for indices (ContactFinder).
-  WorkCounters counters;                ///< Of the frame's local part.
+  std::int64_t contact_without_direction = 0;  ///< LMDs at distance 0 without own direction (E12).
+  std::int64_t lmds_without_index = 0;         ///< If the aggregation needs indices.
+  WorkCounters counters;                       ///< Of the frame's local part.
 };
 
 /// What one of several movers feels in a frame.
@@ -59,10 +59,9 @@ struct SearchRecord {
 /// Times of one repetition [s]; NaN for what did not happen.
 struct RepetitionTimes {
   std::vector<double> local_update;  ///< one a frame
+  std::vector<double> following;     ///< Its part for deforming bodies, or empty.
   std::vector<double>
-      following;  ///< The part of it in which bodies that deform got the frame's shape; empty without such.
-  std::vector<double>
-      way;  ///< Of a method from outside, beside local_update: to it and back, and judging it. Else empty.
+      way;  ///< Of a method from outside, beside local_update: transport, judging. Else empty.
   std::vector<double> global_search;  ///< one a search, as the next two
   std::vector<double> first_reduction;
   std::vector<double> second_tracking;
@@ -77,17 +76,17 @@ struct MethodRecord {
   std::vector<FrameRecord> frames;
   std::vector<SearchRecord> searches;
   std::vector<RepetitionTimes> repetitions;  ///< The first one is the warm-up.
-  std::map<std::int64_t, LmdSet> lmds;       ///< LMDs within the cutoff, of the frames that were to be kept.
-  /// Where several meshes move: one row of them a frame, by their numbers (mover_play.h). Forces of FrameRecord are the moving mesh's, its
-  /// LMD counts and distances those of all pairs. Else empty.
+  std::map<std::int64_t, LmdSet> lmds;       ///< LMDs within the cutoff, of frames to be kept.
+  /// Of several movers a row of them a frame, by number (mover_play.h); else empty. FrameRecord
+  /// then has forces of the moving mesh, LMD counts and distances of all pairs.
   std::vector<MoverFrame> movers;
-  /// What either law makes of its sets, where those are to be the truth of every frame: a method that promises the complete set
-  /// and finds it anew in every frame. Empty for others.
+  /// Forces of its sets under each law, if these are the truth of every frame: of a method that
+  /// promises the complete set and finds it anew. Empty for others.
   ForcesByLaw force_by_law;
   std::vector<Pose>
       poses;  ///< Closed loop: X_WM of each frame, as the encoders told it. Empty in an open one.
-  std::vector<LoopFrame> loop;    ///< Closed loop: what the device did in each frame. Empty in an open one.
-  std::uint64_t result_hash = 0;  ///< Over every frame's force bits and LMD features, in frame order.
+  std::vector<LoopFrame> loop;    ///< Closed loop: the device in each frame. Empty in an open one.
+  std::uint64_t result_hash = 0;  ///< Over frames' force bits and LMD features, in order.
   std::uint64_t work_hash = 0;    ///< Over all counters.
   std::int64_t other_repetitions =
       0;  ///< Of a method from outside: repetitions that left other hashes than the first one.

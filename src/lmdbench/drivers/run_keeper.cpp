@@ -218,8 +218,8 @@ void RunKeeper::keep_searches(std::int64_t repetition, KeptMethod& kept, const M
                                         (record.repetitions.front().*kept.search_times[t].times).back());
 }
 
-/// Known times of the searches so far, as far as they are of stages that the replay has seen, too: what the
-/// earlier process did in the frame in which it ended is done again.
+/// Known times of searches so far, of stages that the replay has had as well: the frame in which
+/// the earlier process ended is done again.
 void RunKeeper::adopt_searches(std::int64_t repetition, const KeptMethod& kept,
                                RepetitionTimes& times) const {
   for (std::size_t t = 0; t < kept.search_times.size(); ++t) {

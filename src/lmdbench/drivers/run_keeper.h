@@ -21,24 +21,24 @@ enum class Leftover : std::uint8_t {
   RESUME   ///< Goes on with it.
 };
 
-/// Keeps a run's frames in its part file, each as soon as it is measured, and takes up an interrupted run.
+/// Keeps frames in a run's part file as each is measured, and resumes an interrupted run.
 ///
-/// Times are all that cannot be computed again: everything else is the same bits whenever it is computed. So a
-/// resumed run replays the repetition in which the earlier one ended, and the first one, which holds the records;
-/// the known times take the place of those of the replay, and whole repetitions that are known are left out. No
-/// method has to save what it keeps from frame to frame. The replayed forces are compared with the kept ones.
+/// Times alone cannot be computed again: all else is the same bits. A resumed run replays the
+/// repetition in which the earlier one ended, and the first, which holds the records. Known times
+/// replace those of the replay; whole known repetitions are skipped. No method has to save its
+/// state. The replayed forces are compared with the kept ones.
 class RunKeeper {
  public:
   /// @param fingerprint  of all that decides results and times; another run's part is refused
   /// @param write_head   writes what is known before the first frame
-  /// @throws InputError for the part of another run, EnvironmentError when there is no room on the disk
+  /// @throws InputError for the part of another run, EnvironmentError for a full disk
   RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t frames, const std::string& fingerprint,
             const std::function<void(ResultWriter&)>& write_head);
 
-  /// Makes a part in which nothing was measured yet one that opens, before meshes are loaded.
+  /// Makes a part without measurements one that opens, before meshes are loaded.
   static void prepare(PartFile& part);
 
-  /// Frames measured by the run that the part is of, over all methods and repetitions; 0 where it is of none.
+  /// Frames that the part's run measured, over all methods and repetitions; 0 if it is of none.
   static std::int64_t measured_frames(PartFile& part);
 
   /// Those that an earlier process measured.

@@ -19,22 +19,22 @@ namespace lmdbench {
 /// What runs on the two-rate clock.
 enum class Stage : std::uint8_t { GLOBAL_SEARCH, FIRST_REDUCTION, SECOND_TRACKING, LOCAL_UPDATE };
 
-/// The clock of lockstep.h, steps 1 to 3: when a global search starts, when its set arrives, and what is
-/// tracked in between. The global and the local thread own an instance of the method each, as real threads
-/// would. Runs and benchmarks share it; what they measure of it is the observer's business:
+/// The clock of lockstep.h, steps 1 to 3: when a global search starts, when its set arrives, and
+/// what is tracked in between. The global and the local thread own an instance of the method each.
+/// Runs and benchmarks share it and measure as observers:
 /// - `observer.search_starts(frame)` before a search;
-/// - `observer.run(stage, work)` must call `work(counters)` once, with the WorkCounters that are to count it;
+/// - `observer.run(stage, work)` must call `work(counters)` once, with the WorkCounters to add to;
 /// - `observer.search_ends(search)` after the first reduction;
-/// - `observer.look_at(frame)`, where it has that, brings what else moves to where it is in a frame.
-/// With prediction (the paper's future work) a search and its first reduction take place not at the present pose
-/// but where the mesh will be when the result arrives, if it goes on as in the last frame.
+/// - `observer.look_at(frame)`, if it exists, moves other movers to their place in a frame. With
+///   prediction (the paper's future work) a search and its first reduction take the pose that the
+///   mesh will have at arrival if it goes on as in the last frame.
 class TwoRate {
  public:
   /// Where a working set comes from.
   struct Search {
     std::int64_t frame = 0;                 ///< Frame that the search started in.
     std::int64_t candidates = 0;            ///< LMDs that it found.
-    std::int64_t kept_after_reduction = 0;  ///< LMDs left by the first tracking; all where there is none.
+    std::int64_t kept_after_reduction = 0;  ///< LMDs left by the first tracking; all without one.
   };
 
   TwoRate(std::unique_ptr<Method> global, std::unique_ptr<Method> local, const DriverChoice& driver)
@@ -101,8 +101,7 @@ class TwoRate {
     observer.search_ends(search);
   }
 
-  /// Decision E11: the later trackings of section 4.3 run where the search ends, with the pose of that
-  /// moment.
+  /// Decision E11: the later trackings of section 4.3 run where the search ends, at that pose.
   template <typename Observer>
   void receive(const Pose& X_WM, Observer& observer) {
     const int later_trackings = global_->description().trackings_after_search - 1;

@@ -14,15 +14,15 @@ namespace lmdbench {
 
 namespace {
 
-/// What a law is between the saturation distance and the cutoff, where s of decision E9 goes from 1 to 0.
+/// A law between the saturation distance and the cutoff, where s of decision E9 goes from 1 to 0.
 struct ForceLawDescription {
   std::string_view name;
   double (*magnitude)(const ForceProfile& profile, double s);  ///< newtons
   double (*stiffness)(const ForceProfile& profile, double s);  ///< N/m
 };
 
-/// Below this sharpness the exponential law differs from the linear one by less than a rounding error: its
-/// relative deviation is k (1 - s) / 2 to first order.
+/// Below this sharpness the exponential law is linear up to rounding: its relative deviation is k
+/// (1 - s) / 2 to first order.
 inline constexpr double LINEAR_SHARPNESS = std::numeric_limits<double>::epsilon();
 
 double linear_magnitude(const ForceProfile& profile, double s) {
@@ -37,8 +37,8 @@ double exponential_magnitude(const ForceProfile& profile, double s) {
   const double k = profile.sharpness;
   LMDBENCH_EXPECTS(k >= 0.0, "a profile that was not validated (validate_force_profile)");
   if (k < LINEAR_SHARPNESS) return linear_magnitude(profile, s);
-  // Decision E9, ours: (e^(k s) - 1) / (e^k - 1), written as e^(k (s - 1)) (1 - e^(-k s)) / (1 - e^(-k)), in
-  // which no exponent is positive: nothing overflows for large k, and expm1 keeps every digit for small k.
+  // Decision E9, ours: (e^(k s) - 1) / (e^k - 1) as e^(k (s - 1)) (1 - e^(-k s)) / (1 - e^(-k)): no
+  // exponent is positive, so large k do not overflow; expm1 keeps the digits of small k.
   return profile.maximum_force * std::exp(k * (s - 1.0)) * (std::expm1(-k * s) / std::expm1(-k));
 }
 

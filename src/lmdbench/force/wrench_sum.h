@@ -11,12 +11,12 @@ class WrenchSum {
  public:
   explicit WrenchSum(const Vec3& reference_W) : reference_W_(reference_W) {}
 
-  /// Whether a pair exerts a force at all. Decision E12, ours: distance 0 has no direction of its own. Where the method still knows the
-  /// last valid one, the LMD pushes along it, saturated; where it does not, pushing anywhere would be an invention.
+  /// Whether a pair exerts a force. Decision E12, ours: an LMD at distance 0 pushes, saturated,
+  /// along the last valid direction if the method knows it, else not at all.
   static bool acts(const Lmd& lmd, const ForceProfile& profile) {
     return !(lmd.distance >= profile.cutoff) && !(lmd.distance <= 0.0 && !lmd.direction.allFinite());
   }
-  /// A force of `length` [N] that pushes the moving mesh away along -direction, at the pair's point of it.
+  /// A force of `length` [N] on the moving mesh along -direction, at the pair's point of it.
   void push(const Lmd& lmd, double length) {
     const Vec3 force_W = -length * lmd.direction;
     force_ += force_W;
@@ -26,7 +26,7 @@ class WrenchSum {
     force_ += force_W;
     torque_ += torque;
   }
-  /// A force along `along` that grows by `stiffness` [N/m] a metre that the moving mesh goes along `measured`.
+  /// A force along `along` that grows by `stiffness` [N/m] with the way along `measured`.
   void stiffen(const Vec3& along, const Vec3& measured, double stiffness) {
     stiffness_W_ += stiffness * along * measured.transpose();
   }

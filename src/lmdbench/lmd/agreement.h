@@ -8,22 +8,21 @@
 #include <cstddef>
 #include <cstdint>
 
-/// How well LMD sets agree with the true ones: the one definition of recall and precision, of runs, studies
-/// and benchmarks alike.
+/// How well LMD sets agree with the true ones: recall and precision, for runs, studies and
+/// benchmarks alike.
 namespace lmdbench {
 
 /// When a reported LMD counts as a true one.
 enum class Match : std::uint8_t {
-  /// The same feature pair on the same fixed body, one to one: a duplicate is not true (it doubles the
-  /// force).
+  /// Same feature pair and fixed body, one to one: a duplicate is false (it doubles the force).
   SAME_FEATURES,
-  /// The same fixed body, and on both meshes the two features share an incident triangle: a pair that stopped
-  /// one feature short of its minimum counts as found. Not one to one: neighbours may share a partner.
+  /// Same fixed body, and on both meshes the two features share an incident triangle: a pair one
+  /// feature from its minimum counts. Not one to one: neighbours may share a partner.
   NEIGHBOURING_FEATURES
 };
 
-/// Counts, to be summed over poses or frames before a ratio is taken ("pooled"), so that a frame with one LMD
-/// does not weigh as much as one with twenty.
+/// Counts, summed over poses or frames before a ratio is taken ("pooled"), so that a frame with one
+/// LMD weighs less than one with twenty.
 struct Agreement {
   std::size_t true_lmds = 0;
   std::size_t found = 0;  ///< True LMDs that a reported one matches.
@@ -43,8 +42,8 @@ struct Agreement {
 /// @param scene whose features the LMDs name
 Agreement agreement(const LmdSet& truth, const LmdSet& reported, Match match, const Scene& scene);
 
-/// The set with each feature pair once. For candidates before the reduction, which hold a pair once for every
-/// triangle pair that found it.
+/// The set with each feature pair once; candidates before the reduction hold one for each triangle
+/// pair that found it.
 LmdSet distinct_pairs(LmdSet lmds);
 
 }  // namespace lmdbench

@@ -19,8 +19,8 @@
 
 namespace lmdbench {
 
-/// A mesh prepared for proximity queries: shared between methods, instances and threads, and immutable but for `deform`. What
-/// only some methods need (a hierarchy) is theirs: made when the first of them asks for it, once, and kept beside the mesh.
+/// A mesh prepared for proximity queries: shared between methods, instances and threads; immutable
+/// except by `deform`. Preparations of some methods (a hierarchy) are made once, on demand.
 class Body {
  public:
   Body(std::string name, Surface surface) : name_(std::move(name)), surface_(std::move(surface)) {}
@@ -30,10 +30,10 @@ class Body {
   const std::string& name() const { return name_; }
   const Surface& surface() const { return surface_; }
 
-  /// What `T::of(*this)`, or else `T::of(surface())`, makes of the mesh, made at the first call and shared by
-  /// all later ones, from any thread. A look-up costs a lock: methods ask once, when they are made, and keep
-  /// the reference, which stays valid: when the mesh deforms, `T::follow(*this, change)` or `T::follow(surface(), change)`
-  /// is called, or where T has neither it is made anew in its place.
+  /// `T::of(*this)` or else `T::of(surface())`, made at the first call and shared by later ones,
+  /// from any thread. A look-up costs a lock: methods ask once and keep the reference, which stays
+  /// valid. When the mesh deforms, `T::follow(*this, change)` or `T::follow(surface(), change)` is
+  /// called; a T without either is made anew in its place.
   template <class T>
   const T& prepared() const {
     Preparation& preparation = preparation_for(typeid(T));
@@ -53,11 +53,11 @@ class Body {
     return *static_cast<const T*>(preparation.value.get());
   }
 
-  /// Gives the mesh new vertices; its triangles stay. All that was prepared follows, what it builds on first. Nobody may
-  /// read the body meanwhile. Methods on it, of `make_method`, find the set of the new mesh in their next search.
-  ///
-  /// A step costs by what moves. The first costs as much as preparing the mesh did, and so does one in which flat faces of several
-  /// triangles form, bend or border on what moves; a step that moves nothing counts as the first.
+  /// Gives the mesh new vertices; its triangles stay. All preparations follow, each after those it
+  /// builds on. Nobody may read the body meanwhile. Methods of `make_method` find the new set in
+  /// their next search. A step costs by the moved part. The first costs as much as preparing the
+  /// mesh, as does one in which flat faces of several triangles form, bend or border on moved ones;
+  /// a step without motion counts as first.
   /// @param vertices one for each of the mesh's, in the mesh's frame [m]
   /// @return what changed, valid until the next call
   /// @throws InputError as check_moved_vertices; the body is as it was
@@ -95,7 +95,7 @@ class Body {
   std::uint32_t deformations_ = 0;
   mutable std::mutex mutex_;
   mutable std::map<std::type_index, Preparation> preparations_;
-  /// What each preparation does when the mesh deforms, in the order in which they were finished: what one builds on stands before it.
+  /// How each preparation follows a deformation, in the order in which they were finished.
   mutable std::vector<std::function<void(const Body&, const SurfaceChange&)>> followers_;
 };
 

@@ -17,13 +17,13 @@ namespace lmdbench {
 /// origin (near_frame.h).
 struct Lmd {
   double distance = std::numeric_limits<double>::quiet_NaN();                    ///< metres
-  Vec3 point_moving = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< p_W on the moving mesh
-  Vec3 point_fixed = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());   ///< q_W on the fixed mesh
-  /// Unit vector p -> q. NaN when the triangles touch at distance 0 and no earlier direction is known (E12).
+  Vec3 point_moving = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< p_W, moving
+  Vec3 point_fixed = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());   ///< q_W, fixed
+  /// Unit vector p -> q. NaN where the triangles intersect and no earlier direction is known (E12).
   Vec3 direction = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   FeatureId feature_moving;
   FeatureId feature_fixed;
-  std::int32_t triangle_moving = -1;  ///< A triangle that carries point_moving: where local tracking starts.
+  std::int32_t triangle_moving = -1;  ///< Carries point_moving: where local tracking starts.
   std::int32_t triangle_fixed = -1;   ///< A triangle that carries point_fixed.
   std::int32_t fixed_body = 0;        ///< Which of the scene's fixed meshes.
   bool intersecting = false;          ///< The two triangles share a point (distance 0).

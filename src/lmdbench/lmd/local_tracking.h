@@ -9,20 +9,20 @@
 
 namespace lmdbench {
 
-/// Local tracking (paper, sections 3.2.2 and 4.2): one LMD walks to its local minimum over
+/// Local tracking (paper, sections 3.2.2 and 4.2): an LMD moves to its local minimum over
 /// neighbouring triangles.
 ///   L1  the triangles round both contact points, by their closest features (Fig. 5);
 ///   L2  the distances of all combinations;
 ///   L3  quit when the shortest one is the pair that was there;
 ///   L4  else go on from the shortest.
 ///
-/// What the distance of a triangle pair is (7x7 points or exact) and where it comes from (calculated or
-/// cached) is the algorithm's own; the walk is shared.
+/// The distance of a triangle pair (7x7 points or exact) and its origin (calculated or cached) are
+/// the algorithm's own; the walk is shared.
 
 /// Closest points of one triangle pair, as an algorithm sees them.
 struct TrackedPair {
   Lmd lmd;                     ///< Without `direction`.
-  bool seen_by_other = false;  ///< Calculated earlier in this update for another LMD (section 4.2.1).
+  bool seen_by_other = false;  ///< Calculated in this update for another LMD (section 4.2.1).
 };
 
 /// Where a walk ended.
@@ -32,22 +32,22 @@ struct WalkEnd {
       false;  ///< The minimum was already found for another LMD: the published rule drops this one.
 };
 
-/// A distance must shrink by more than this fraction to count as shorter: the same two points, seen from
-/// another triangle that shares them, differ by rounding only. Useful range 1e-14 .. 1e-9.
+/// A distance is shorter only by more than this fraction: the same points, seen from another
+/// triangle that shares them, differ by rounding. Useful range 1e-14 .. 1e-9.
 inline constexpr double SAME_DISTANCE_TOLERANCE = 1e-12;
 
 inline bool is_shorter(double candidate, double best) {
   return candidate < best * (1.0 - SAME_DISTANCE_TOLERANCE);
 }
 
-/// Direction of a pair from its points; a pair at distance 0 keeps the last valid one (decision E12).
+/// Direction of a pair from its points; at distance 0 it keeps the last valid one (decision E12).
 inline void set_direction(Lmd& lmd, const Vec3& last_direction) {
   lmd.direction = lmd.distance > 0.0 && !lmd.intersecting
                       ? Vec3((lmd.point_fixed - lmd.point_moving) / lmd.distance)
                       : last_direction;
 }
 
-/// L1 as Fig. 5 (b) and (c) show it: the triangles that contain the feature. Of a face that is itself alone.
+/// L1 as in Fig. 5 (b) and (c): the triangles that contain the feature. A face is its own alone.
 struct IncidentTriangles {
   TriangleList operator()(const Surface& surface, const FeatureId& feature) const {
     return surface.incident_triangles(feature);

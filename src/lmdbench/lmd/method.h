@@ -11,9 +11,9 @@ namespace lmdbench {
 
 struct MethodDescription;
 
-/// One way to find the LMD set of two bodies; scene/scene_search.h makes of it one over a scene. A method
-/// owns its scratch memory and is used by one thread at a time; the bodies that it reads are shared, and
-/// immutable but where they deform.
+/// A way to find the LMD set of two bodies; scene/scene_search.h takes it to scenes. A method owns
+/// its scratch memory and is used by one thread at a time; its bodies are shared, and immutable
+/// unless they deform.
 class Method {
  public:
   virtual ~Method() = default;
@@ -23,17 +23,17 @@ class Method {
 
   /// Finds an LMD set from scratch.
   /// @param X_WM     pose of the moving mesh
-  /// @param lmds     receives the set, sorted by `lmd_less`; for the paper's algorithms these are the
-  ///                 candidates before reduction
+  /// @param lmds  the set, sorted by `lmd_less`; the paper's algorithms give candidates before
+  /// reduction
   /// @param counters is added to
   virtual void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) = 0;
 
-  /// Brings a set to a new pose (L1..L4) and drops duplicates by the method's rule. Tracked pairs may lie
-  /// beyond the cutoff: they stay in the set, exert no force and are not reported (see `within_cutoff`).
+  /// Brings a set to a new pose (L1..L4) and drops duplicates by the method's rule. Tracked pairs
+  /// beyond the cutoff stay in the set, but exert no force and are not reported (`within_cutoff`).
   virtual void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) = 0;
 
-  /// Finds all critical pairs (critical_pair.h). Only for methods whose description says that they do
-  /// (`finds_critical_pairs`); costs more than `search`.
+  /// Finds all critical pairs (critical_pair.h); costs more than `search`. Only for methods whose
+  /// description has `finds_critical_pairs`.
   /// @throws std::logic_error for others
   virtual void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters);
 };

@@ -19,7 +19,7 @@
 
 namespace lmdbench {
 
-/// What a method's set is meant to be, and so how it is judged.
+/// What a method's set is meant to be; it is judged by that.
 enum class Promise : std::uint8_t {
   COMPLETE_SET,   ///< The true LMD set, in every frame.
   APPROXIMATION,  ///< May miss LMDs and report pairs that are none; its error is reported.
@@ -66,32 +66,32 @@ class MethodFaults {
   std::string last_;
 };
 
-/// All that the rest of the program knows of a method. Schema, checks, help, plan, result groups, reports and
-/// benchmarks are made from it, so that a new method is its folder and a line in `methods/CMakeLists.txt`.
+/// All that the program knows of a method. Schema, checks, help, plan, result groups, reports and
+/// benchmarks follow, so a new method is its folder and a line in `methods/CMakeLists.txt`.
 struct MethodDescription {
   std::string name;     ///< In experiment files, snake_case or kebab-case.
   std::string summary;  ///< One sentence without a full stop.
   Promise promise = Promise::APPROXIMATION;
 
-  /// Whether the method needs local tracking between searches. If not, drivers call `search` in every haptic
+  /// Whether it needs local tracking between searches; if not, drivers search in every haptic
   /// frame.
   bool tracks_locally = false;
 
-  /// How many times `track` runs in the global thread right after a search (paper, section 4.3; decision
-  /// E11): 0 for the original, 2 for the improved algorithm (first reduction, second tracking).
+  /// How often `track` runs after a search in the global thread (paper, section 4.3; decision E11):
+  /// 0 original, 2 improved algorithm (first reduction, second tracking).
   int trackings_after_search = 0;
 
-  /// Whether a search looks at every pair of triangles, so that benchmarks time it only where asked to.
+  /// Whether a search looks at every pair of triangles; benchmarks time it only on demand.
   bool brute_force = false;
 
-  /// Whether `search` keeps what it found of a pair of meshes for the next frame. Then each pair of a scene's objects that is near gets a
-  /// method of its own; else one serves all pairs of two meshes.
+  /// Whether `search` keeps results of a pair of meshes for the next frame. Then each near pair of
+  /// objects gets its own method; else one serves all pairs of two meshes.
   bool frame_coherent = false;
 
   /// Whether `Method::find_critical` answers.
   bool finds_critical_pairs = false;
 
-  /// Whether an instance goes on where a body of its scene has deformed (Body::deform); others are made anew (scene/mesh_pair.h).
+  /// Whether an instance follows Body::deform; others are made anew (scene/mesh_pair.h).
   bool follows_deformation = false;
 
   /// The options, as "properties" of a draft-07 JSON Schema; each has a description and a default.
@@ -100,30 +100,29 @@ struct MethodDescription {
   /// Every value of the method's enumeration, in the order of reports.
   std::vector<CounterDescription> counters;
 
-  /// File of a method from outside (plugin/plugin.h), of which nothing is believed: it is no truth for others, and what it does from
-  /// one repetition to the next is its own matter. Empty for the program's own.
+  /// File of a method from outside (plugin/plugin.h), empty for own ones. It is no truth for
+  /// others, and its repetitions may differ.
   std::filesystem::path plugin = {};
   std::shared_ptr<MethodFaults> faults = {};  ///< Of a method from outside.
-  /// Its first counters are what is wrong with its answers; the very first one, answers that were lost.
+  /// Its first counters count faults of its answers; the very first one lost answers.
   static constexpr std::size_t MARKS = 9;
 
   /// Makes an instance for two bodies (`Scene::is_pair`).
   /// @param options checked against `options`, with all defaults filled in
   std::function<std::unique_ptr<Method>(const Scene& scene, const nlohmann::json& options)> make;
 
-  /// Whether it has a force of its own (own_wrench.h): then the option "own_force" says whether that is rendered.
+  /// Whether it may have a force of its own (own_wrench.h), which the option "own_force" renders.
   bool has_own_force() const { return options.contains("own_force"); }
 
-  /// What is counted in the local part of a frame: by tracking, or by a search where every frame has one.
+  /// Counters of a frame's local part: of tracking, or of a search in every frame.
   std::vector<CounterDescription> local_counters() const;
 
-  /// What is counted in the global part: by the search and by the trackings after it; nothing where there is
-  /// none.
+  /// Counters of the global part: of the search and the trackings after it; none without one.
   std::vector<CounterDescription> global_counters() const;
 };
 
-/// The properties with the defaults that the method's options have as a JSON object, so that each default
-/// stands in one place.
+/// The properties with their defaults, from the method's options as a JSON object: each default is
+/// written once.
 /// @throws std::logic_error when a property has no default, or a default no property
 nlohmann::json with_defaults(nlohmann::json properties, const nlohmann::json& defaults);
 

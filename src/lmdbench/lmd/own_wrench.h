@@ -18,13 +18,13 @@ struct OwnWrench {
   Vec3 torque_about(const Vec3& point) const { return torque + (about - point).cross(force); }
 };
 
-/// What a method derives from beside `Method` where it may have a force of its own, in place of a law over its set, or passes on another
-/// method's.
+/// Further base of a `Method` that may have a force of its own, in place of a law, or passes on
+/// another method's.
 class HasOwnWrench {
  public:
   virtual ~HasOwnWrench() = default;
-  /// Of the last search; unset where there is none.
-  /// @param mover  which mesh that moves feels it, in the order of `Scene::movers`; 0 where one does
+  /// Force of the last search; unset where there is none.
+  /// @param mover  the moving mesh that feels it, in the order of `Scene::movers`; 0 of one
   virtual std::optional<OwnWrench> own_wrench(std::size_t mover) const = 0;
 };
 

@@ -17,8 +17,8 @@
 
 namespace lmdbench {
 
-/// A mesh that stands in the world. Many of one scene may share one `Body`, each at a pose of its own: such copies are *instances*, and
-/// their index among the scene's fixed meshes is `Lmd::fixed_body`.
+/// A mesh that stands in the world. Several of a scene may share one `Body`, at poses of their own:
+/// such *instances* have their index among the fixed meshes as `Lmd::fixed_body`.
 struct FixedBody {
   std::shared_ptr<const Body> body;
   Pose X_WF;  ///< The identity where the vertices are already in the world frame.
@@ -36,17 +36,17 @@ struct FixedBody {
   }
 };
 
-/// Bodies in which LMDs are looked for: one moving body and the fixed ones, and what else moves. Its objects are numbered: what moves first,
-/// then what stands. Methods work on pairs (`is_pair`); scene/scene_search.h makes of them methods over a scene.
+/// The moving bodies and the fixed ones. Its objects are numbered, movers first. Methods work on
+/// pairs (`is_pair`), scene/scene_search.h on scenes.
 struct Scene {
   std::shared_ptr<const Body> moving;
   std::vector<FixedBody> fixed;
   double cutoff = 0.0;  ///< Distance beyond which a pair exerts no force [m]; G1's limit.
-  /// Where several bodies move: all of them, `moving` at its place `held` among them, in an order that the scene alone decides: of a pair
-  /// the earlier one takes the moving mesh's part. Else empty.
+  /// Where several bodies move: all, `moving` at place `held`, in an order that the scene alone
+  /// decides: of a pair the earlier one is the moving mesh. Else empty.
   std::vector<std::shared_ptr<const Body>> movers = {};
   std::size_t held = 0;
-  /// X_WM of each of them at present, but for that of `moving`, which is what a question is asked with.
+  /// X_WM of each at present; that of `moving` comes with the search instead.
   std::shared_ptr<const std::vector<Pose>> mover_poses = nullptr;
 
   bool several_move() const { return !movers.empty(); }
@@ -63,12 +63,12 @@ struct Scene {
     return object == held ? X_WM : (*mover_poses)[object];
   }
 
-  /// Whether some fixed mesh is not in the world frame: then poses are composed for each of them (scene/mesh_pair.h), and
-  /// whoever reads vertices has to place them.
+  /// Whether some fixed mesh is not in the world frame: then its pose is composed
+  /// (scene/mesh_pair.h) and readers place its vertices.
   bool is_world() const {
     return std::any_of(fixed.begin(), fixed.end(), [](const FixedBody& body) { return body.is_placed(); });
   }
-  /// Whether it is what methods work on: two bodies, of which one moves and the other is where its vertices are.
+  /// Whether methods can work on it: one body moves, and one stands where its vertices are.
   bool is_pair() const { return !several_move() && fixed.size() == 1 && !is_world(); }
   /// Of a pair.
   const Body& fixed_body() const {
@@ -82,7 +82,7 @@ struct ObjectPair {
   std::uint32_t mover = 0, other = 0;
   auto operator<=>(const ObjectPair&) const = default;
 
-  /// `Lmd::fixed_body` of their LMDs: another number for each pair; where one mesh moves, which of the fixed ones.
+  /// `Lmd::fixed_body` of their LMDs: one a pair; of one moving mesh the fixed body's index.
   std::int32_t number(const Scene& scene) const {
     return static_cast<std::int32_t>(scene.several_move() ? mover * scene.object_count() + other : other - 1);
   }

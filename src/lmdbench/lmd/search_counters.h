@@ -9,8 +9,8 @@
 
 namespace lmdbench {
 
-/// What every method counts that descends two hierarchies with the tests G1 to G3. `Counter` is the method's
-/// enumeration, `Traversal` what the descent counted, both with these names.
+/// Counts of methods that descend two hierarchies with the tests G1 to G3. `Counter` is the
+/// method's enumeration, `Traversal` the descent's counts, with equal names.
 template <class Counter, class Traversal>
 void add_traversal(WorkCounters& counters, const Traversal& traversal) {
   counters[Counter::NODE_PAIRS] += traversal.node_pairs;

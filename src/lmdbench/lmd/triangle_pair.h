@@ -11,8 +11,8 @@
 
 namespace lmdbench {
 
-/// The nearest points of a triangle pair as an LMD with stable feature ids; `direction` is left unset,
-/// because what a pair at distance 0 gets is the caller's decision (E12).
+/// Nearest points of a triangle pair as an LMD with stable feature ids. `direction` stays unset: at
+/// distance 0 it is the caller's decision (E12).
 /// @param pair distance in world coordinates; a is the moving triangle
 inline Lmd lmd_of_triangle_pair(const Surface& moving, const Surface& fixed, std::int32_t t_moving,
                                 std::int32_t t_fixed, const TrianglePairDistance& pair) {

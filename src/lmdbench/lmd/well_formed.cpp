@@ -12,7 +12,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Relative to the coordinates: above what points far from the origin lose (near_frame.h), far below any distance that is reported.
+/// Over the coordinates: above the loss far from the origin (near_frame.h), below any distance.
 constexpr double DISTANCE_ROUNDING = 1e-9;
 
 bool holds_feature(const Surface& surface, std::int32_t triangle, const FeatureId& feature) {

@@ -7,9 +7,9 @@
 
 namespace lmdbench {
 
-/// What every method owes of the set that it reports, whether it is complete or not: sorted by `lmd_less`; features, triangles and bodies
-/// that there are; the triangles hold the features; directions of unit length or not known, distances those of the points up to the
-/// rounding of their coordinates.
+/// Whether a set, complete or not, is sorted by `lmd_less`; its features, triangles and bodies
+/// exist; the triangles hold the features; directions are of unit length or NaN; distances are
+/// those of the points up to rounding of coordinates.
 bool is_well_formed(const LmdSet& lmds, const Scene& scene);
 
 }  // namespace lmdbench

@@ -9,12 +9,10 @@
 
 namespace lmdbench {
 
-/// Deterministic cost of a method: exact, the same on every machine, so CI can gate on it. Which counters
-/// there are is the method's own matter: an enumeration of its class says which value is which, its
-/// description (`MethodDescription::counters`) what the values are called.
+/// Deterministic cost of a method, the same on every machine, so CI can compare it. Its enumeration
+/// says which value is which, `MethodDescription::counters` what they are called.
 struct WorkCounters {
-  /// No method counts more kinds of work than this; a fixed number keeps a frame's record free of
-  /// allocations.
+  /// No method has more counters; a fixed number keeps a frame's record free of allocations.
   static constexpr std::size_t CAPACITY = 16;
 
   std::array<std::uint64_t, CAPACITY> values{};

@@ -18,8 +18,8 @@ namespace lmdbench {
 struct QueryAnswer {
   double time = 0.0;  ///< Of the pose [s].
   std::string method;
-  LmdSet lmds;                                                  ///< Sorted by `lmd_less`, world coordinates.
-  std::optional<CriticalSet> critical;                          ///< Where asked for; the LMDs are its minima.
+  LmdSet lmds;                                                  ///< Sorted by `lmd_less`; world.
+  std::optional<CriticalSet> critical;                          ///< If asked for; with the LMDs.
   std::vector<std::pair<std::string, std::uint64_t>> counters;  ///< The method's, by name.
   double seconds = 0.0;                                         ///< What the method took.
 };
@@ -34,9 +34,9 @@ QueryAnswer query(Method& method, const Pose& X_WM, double cutoff, double time =
 /// @pre the method's description says that it finds them
 QueryAnswer query_critical(Method& method, const Pose& X_WM, double time = 0.0);
 
-/// One line of JSON without a line end (the contract of `lmdbench query --json`). A
-/// distance of 0 is a number like any other; an empty set has the minimum distance null. With critical pairs these are the entries, each with its
-/// "index" (null where it has none) and whether it is a "minimum".
+/// A line of JSON without line end (contract of `lmdbench query --json`). Distance 0 is a number;
+/// an empty set has minimum distance null. Critical pairs are entries with "index" (or null) and
+/// "minimum".
 std::string query_json(const QueryAnswer& answer);
 
 /// For people: a heading and one line an LMD.

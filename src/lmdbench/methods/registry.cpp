@@ -103,7 +103,7 @@ std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene, c
                complete = complete_options(description, options, "options of " + description.name)](
                   const Scene& of_pair) { return description.make(of_pair, complete); };
   refuse_two_hubs(scene);
-  // What sees two bodies themselves and follows them has nothing to be brought anywhere, nor made anew.
+  // A method that sees two bodies itself and follows them needs no frames and no new instances.
   if (scene.is_pair() && description.follows_deformation && !NearFrame(scene).differs()) return make(scene);
   return std::make_unique<SceneSearch>(scene, description, std::move(make));
 }

@@ -16,14 +16,14 @@
 #include <string_view>
 #include <vector>
 
-/// The methods of this build. Drivers, tests, benchmarks and reports take the list from here and what they
-/// must know of each from its description.
+/// The methods of this build. Drivers, tests, benchmarks and reports take all from here and their
+/// descriptions.
 namespace lmdbench {
 
 /// In the order of reports. References stay valid when methods are added.
 const std::deque<MethodDescription>& method_descriptions();
 
-/// Adds a method from outside (plugin/plugin.h), last in the order of reports. For the start of a program.
+/// Adds a method from outside (plugin/plugin.h), last in reports. For the start of a program.
 void add_method(MethodDescription method);
 
 /// A method that this build was made without, and the part of it that is missing.
@@ -36,13 +36,13 @@ const std::vector<MissingMethod>& missing_methods();
 /// Names of the methods that there are, for messages.
 std::vector<std::string> method_names();
 
-/// @throws UsageError for an unknown name, with the nearest one or the known ones; EnvironmentError for one that this
-///         build was made without
+/// @throws UsageError for an unknown name, with the nearest or known ones; EnvironmentError for one
+/// that this build lacks
 /// @param file,place where the name stands, for the message
 const MethodDescription& method_description(std::string_view name, const std::string& file = "",
                                             const std::string& place = "method");
 
-/// Place in the order of reports. Figures take colours by it, so that a method looks the same everywhere.
+/// Place in the order of reports, and of colours: a method looks the same in all figures.
 std::size_t method_order(std::string_view name);
 
 /// Checks options against the method's schema and fills in the defaults.
@@ -53,7 +53,7 @@ nlohmann::json complete_options(const MethodDescription& description, nlohmann::
 
 /// Makes a method on a scene (scene/scene_search.h).
 /// @param options need not name those that keep their defaults
-/// @throws UsageError for an unknown name or option; InputError for two hubs that may meet (`Limit::VERTEX_PAIRS`)
+/// @throws UsageError for a name or option; InputError for hubs that may meet (VERTEX_PAIRS)
 std::unique_ptr<Method> make_method(std::string_view name, const Scene& scene,
                                     const nlohmann::json& options = nlohmann::json::object());
 

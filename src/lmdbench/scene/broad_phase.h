@@ -17,24 +17,24 @@
 
 namespace lmdbench {
 
-/// How far any point of a placed mesh can have come between two poses: the way of its centre, and twice the radius by the sine of half
-/// the turn (the chord of the farthest point), grown by rounding [m].
+/// Bound [m] of how far a placed mesh's points move between two poses: the centre's way plus 2
+/// radius sin(turn / 2) (chord of the farthest point), grown by rounding.
 double farthest_motion(const MeshBounds& bounds, const Pose& from, const Pose& to);
 
-/// Which pairs of a scene's objects may be within reach, frame after frame.
+/// Pairs of a scene's objects that may be within reach, frame after frame (PROOF.md here, W2, W4).
 ///
-/// Every mover has an *anchor*, a pose that it had, and around it a box that holds it as long as no point of it is farther than its *slack*
-/// from where it was there, grown by half the reach; what stands is anchored for good, without slack. Objects whose boxes are apart are out
-/// of reach of each other, whatever they do within their slack. The others are *candidates*, with the *room* that they had at their
-/// anchors: by how much they were farther apart than the reach, as their boxes tell. A frame looks at those whose room the motions of both
-/// have used up; for the first time it gives them a larger one, where the spheres of the outlines (mesh_bounds.h) were farther apart than
-/// the boxes. What leaves its slack is anchored where it is, alone: its box, its candidates. So neither what is far nor what rests costs
-/// more than a comparison, and an instance that stands no more than its box in the tree (PROOF.md here, W2 and W4).
+/// A mover has an *anchor*, an earlier pose, and a box that holds it while no point is farther than
+/// its *slack* from there, grown by half the reach. What stands is anchored for good, without
+/// slack. Objects with separate boxes are out of reach within their slack. Others are *candidates*.
+/// Their *room* is the gap of their boxes at the anchors less the reach. A frame looks only at
+/// pairs whose motions have used it up, and first enlarges it by the spheres of the outlines
+/// (mesh_bounds.h). A mover that leaves its slack is anchored anew, alone, with box and candidates.
+/// So what is far or rests costs a comparison; an instance that stands costs its box in the tree.
 class BroadPhase {
  public:
   /// Swept by `lmdbench-study worlds`, parts `slack` and `pile-slack`.
   struct Tuning {
-    double slack = 0.25;  ///< Over the mover's radius: less anchors more often, more has more candidates.
+    double slack = 0.25;  ///< Over the mover's radius: small: many anchors; large: many pairs.
     double pack_share =
         0.1;  ///< Where more of the movers leave their slack in a frame, the tree is packed anew.
   };
@@ -42,19 +42,19 @@ class BroadPhase {
   struct Candidate : ObjectPair {
     double room = 0.0;                 ///< [m]
     bool by_outline = false;           ///< The room is what outlines tell.
-    std::unique_ptr<Method> method{};  ///< Whoever searches keeps it here while the pair is a candidate.
+    std::unique_ptr<Method> method{};  ///< Kept here by the search while the pair is a candidate.
   };
 
   /// What frames cost.
   struct Work {
     std::uint64_t queries = 0;  ///< Of the trees: movers that left their slack.
-    std::uint64_t touched = 0;  ///< Pairs whose bounds were placed, or whose room was found used up.
+    std::uint64_t touched = 0;  ///< Pairs whose bounds were placed or whose room was used up.
   };
 
   explicit BroadPhase(const Scene& scene) : BroadPhase(std::make_shared<const Scene>(scene), Tuning{}) {}
   BroadPhase(std::shared_ptr<const Scene> scene, const Tuning& tuning);
 
-  /// Brings it to a frame, and to what bodies have deformed to since.
+  /// Brings it to a frame and to the present shapes of bodies.
   /// @param X_WM of `Scene::moving`; `Scene::mover_poses` says where the others are
   void advance(const Pose& X_WM, Work& work);
 
@@ -71,8 +71,8 @@ class BroadPhase {
   /// Candidates with a method that are none any more; whoever searches empties it.
   std::vector<Candidate>& dropped() { return dropped_; }
 
-  /// Of what stands: calls visit(instance, bound) by the distance of the instance's box from the centre of the moving mesh, until it returns
-  /// false; `bound` [m] is a lower bound of the distance of the meshes, and of all that would follow. For what looks for the nearest one.
+  /// Calls visit(instance, bound) for what stands, by the distance of boxes to the moving centre,
+  /// until false; `bound` [m] is a lower bound of this and all later distances of meshes.
   void by_distance(const Pose& X_WM,
                    const std::function<bool(std::uint32_t instance, double bound)>& visit) const;
 
@@ -119,7 +119,7 @@ class BroadPhase {
   std::vector<std::uint32_t> mesh_;  ///< One an object.
   std::vector<Mover> movers_;
   bool has_anchors_ = false;
-  std::optional<InstanceTree> moving_tree_;  ///< Of the movers' grown boxes, where there are several.
+  std::optional<InstanceTree> moving_tree_;  ///< Of several movers' grown boxes.
   std::optional<InstanceTree> standing_tree_;
   std::vector<Eigen::AlignedBox3d> grown_;  ///< One a mover: what the tree has.
   std::vector<std::uint32_t> stale_, touching_;
@@ -129,14 +129,14 @@ class BroadPhase {
 
 /// The nearest of a world's instances.
 struct NearestInstance {
-  std::int32_t instance = -1;                                 ///< -1 where none is within the bound.
-  double distance = std::numeric_limits<double>::infinity();  ///< [m]; 0 where the meshes intersect.
+  std::int32_t instance = -1;                                 ///< -1: none within the bound.
+  double distance = std::numeric_limits<double>::infinity();  ///< [m]; 0 if meshes intersect.
   std::int32_t triangle_moving = -1;
   std::int32_t triangle_fixed = -1;
 };
 
-/// Exact minimum distance to a scene's fixed meshes, each at its pose (snch/minimum_distance.h), nearest boxes first. Of instances that
-/// are equally near the first by index.
+/// Exact minimum distance to a scene's fixed meshes, each at its pose (snch/minimum_distance.h),
+/// nearest boxes first; of equally near instances the first by index.
 /// @param phase of the same scene
 /// @param bound distances above this are not looked for [m]
 NearestInstance nearest_instance(const Scene& scene, const BroadPhase& phase, const Pose& X_WM,

@@ -51,8 +51,8 @@ double distance_of(const FloatPoint& p, const FloatBox& box) {
                     along(p.get<2>(), box.min_corner().get<2>(), box.max_corner().get<2>()));
 }
 
-/// Boost orders by squared distances in single precision, which are off by a few roundings of the coordinates, as is the point: what
-/// follows may be nearer by that. Relative to the distance and to the coordinates.
+/// Boost orders by squared distances in single precision, off by a few roundings of coordinates and
+/// point: later ones may be nearer by this, over distance and coordinates.
 constexpr double ORDER_ROUNDING = 1e-6;
 
 }  // namespace
@@ -60,8 +60,8 @@ constexpr double ORDER_ROUNDING = 1e-6;
 class InstanceTree::Tree {
  public:
   explicit Tree(const std::vector<Entry>& entries) : entries_(entries.begin(), entries.end()) {}
-  // How nodes are split matters only for what is moved: packing does not ask. (GCC 12 takes the R*-tree's insertion for a write beyond its
-  // nodes.)
+  // Packing ignores how nodes split; only moves do not. (GCC 12 takes the R*-tree's insertion for a
+  // write beyond its nodes.)
   bg::index::rtree<Entry, bg::index::quadratic<8>, bg::index::indexable<Entry>, SameInstance> entries_;
 };
 

@@ -13,9 +13,9 @@
 
 namespace lmdbench {
 
-/// Boost.Geometry's R-tree over the boxes of instances, packed when it is made, in single precision rounded outwards: 28 bytes an
-/// instance and its share of the nodes. Chosen by measurement (`lmdbench-study worlds --broad-phase`). What it answers does not depend on
-/// the order in which boxes come.
+/// Boost.Geometry's R-tree over boxes of instances, packed when made, in single precision rounded
+/// outwards: 28 bytes an instance, and nodes. Chosen by measurement (`lmdbench-study worlds
+/// --broad-phase`). Answers do not depend on the order of boxes.
 class InstanceTree {
  public:
   /// @param boxes one an instance, which is named by its index
@@ -28,11 +28,11 @@ class InstanceTree {
   /// @param from the box that it has
   void move(std::uint32_t instance, const Eigen::AlignedBox3d& from, const Eigen::AlignedBox3d& to);
 
-  /// Those whose boxes share a point with `box`, ascending; a few beside it, by the rounding of single precision.
+  /// Instances whose boxes touch `box`, ascending, with a few beside it by rounding.
   void touching(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& instances) const;
 
-  /// Calls visit(instance, bound) for one after the other, by the distance of its box from the point, until it returns false; `bound` [m]
-  /// is a lower bound of that distance, and of those of all that would follow.
+  /// Calls visit(instance, bound) by the distance of boxes from the point, until false; `bound` [m]
+  /// is a lower bound of that distance, and of all later ones.
   void by_distance(const Eigen::Vector3d& point,
                    const std::function<bool(std::uint32_t instance, double bound)>& visit) const;
 

@@ -68,8 +68,8 @@ PlacedPair MeshPair::in_near_frame(PlacedPair pair) const {
 }
 
 std::unique_ptr<Method> MeshPair::take() {
-  // What it keeps of other objects with these meshes is as good as what it keeps of an earlier pose: a certificate knows how far the
-  // relative pose has moved since.
+  // Results kept for other objects with these meshes are as good as those of an earlier pose:
+  // certificates know how far the relative pose has moved.
   if (idle_.empty()) {
     ++made_;
     return make_(frame_.scene());

@@ -15,14 +15,14 @@
 
 namespace lmdbench {
 
-/// Where two placed meshes are in a frame: what brings LMDs from the frame that their method works in to the world and back.
+/// Place of two meshes in a frame: takes LMDs from the method's frame to the world and back.
 struct PlacedPair {
   RigidTransform X_WF{};
   Vec3 origin_F = Vec3::Zero();  ///< Of the near frame.
   Pose X_FM{};                   ///< Between the near frames.
   bool is_world = false;         ///< F is the world: a product with the identity would round.
 
-  /// Of a scene's pair. In a scene whose fixed meshes all stand where their vertices are, F is the world.
+  /// Of a scene's pair. F is the world where all fixed meshes stand where their vertices are.
   static PlacedPair of(const Scene& scene, const ObjectPair& pair, const Pose& X_WM);
 
   /// @param number `ObjectPair::number`
@@ -30,8 +30,8 @@ struct PlacedPair {
   void to_mesh(Lmd& lmd) const;
 };
 
-/// Two meshes as methods see them, the second one fixed and in its own frame, however many pairs of objects have them; with the methods
-/// of such pairs that nobody has just now.
+/// Two meshes as methods see them, the second fixed in its own frame, for all pairs of objects that
+/// have them; with idle methods of such pairs.
 class MeshPair {
  public:
   using Make = std::function<std::unique_ptr<Method>(const Scene& of_pair)>;
@@ -41,17 +41,17 @@ class MeshPair {
   /// @param make must outlive this
   MeshPair(const Scene& of_pair, const Make& make);
 
-  /// Makes everything anew where a mesh has deformed and methods do not follow (`MethodDescription::follows_deformation`) or do not see the
-  /// meshes themselves. So a method is right, and its preparation is paid when the pair is next near. What FCL holds of a mesh is built again
-  /// with it: FCL 0.7.0's refit from the leaves up returns wrong distances for RSS and OBBRSS.
-  /// @return whether it did: then methods that were taken are of no use any more
+  /// Makes all anew where a mesh deformed and methods do not follow it (MethodDescription) or see
+  /// copies of it. The cost falls when the pair is next near. FCL's models are built again: FCL
+  /// 0.7.0's refit from the leaves up returns wrong distances for RSS and OBBRSS.
+  /// @return whether it did: methods that were taken are then of no use
   bool follow_deformation();
 
   const NearFrame& frame() const { return frame_; }
   /// @param pair in the frames of the meshes
   PlacedPair in_near_frame(PlacedPair pair) const;
 
-  /// Whether methods keep something from frame to frame: then each pair of objects takes one, else one serves all.
+  /// Whether methods keep results between frames: then each pair takes one, else one serves all.
   bool keeps_frames() const { return keeps_frames_; }
   /// @pre none was taken
   Method& shared() { return *idle_.front(); }

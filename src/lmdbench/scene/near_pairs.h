@@ -9,7 +9,7 @@
 
 namespace lmdbench {
 
-/// Up to which distance any two objects of a scene can have a contact: the cutoff and the tolerances of the definition [m].
+/// Largest distance of a contact of any two objects: cutoff and tolerances [m].
 double contact_reach(const Scene& scene);
 
 /// Pairs of objects whose bounding spheres are within a distance of each other, nearest first.

@@ -18,7 +18,7 @@ double uniform_in(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * uniform_number(random);
 }
 
-/// Uniform over all rotations: a direction in four dimensions, by rejection. No sine: it is the same on every machine.
+/// Uniform over rotations: a direction in 4D, by rejection; without sines the same on all machines.
 Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
   for (;;) {
     const double x = uniform_in(random, -1.0, 1.0), y = uniform_in(random, -1.0, 1.0);

@@ -13,7 +13,7 @@
 
 namespace lmdbench {
 
-/// A rule that puts instances of a mesh into the world, about the origin. The same poses on every machine.
+/// A rule that puts instances of a mesh into the world, about the origin; equal on all machines.
 struct Scatter {
   enum class Rule : std::uint8_t {
     GRID,    ///< `counts` along x, y and z.
@@ -23,16 +23,16 @@ struct Scatter {
   Rule rule = Rule::GRID;
   std::array<std::int64_t, 3> counts{1, 1, 1};
   std::int64_t count = 1;
-  /// Distance of neighbours, in diagonals of the mesh's bounding box; RANDOM: one instance in each such cube on average.
+  /// Distance of neighbours, in diagonals of the mesh's box; RANDOM: mean, one in each such cube.
   double spacing = 1.5;
-  bool turned = true;  ///< Each at an orientation of its own, uniform over all; else as the mesh is.
+  bool turned = true;  ///< Each at its own orientation, uniform over all; else as the mesh is.
   std::uint64_t seed = 1;
 };
 
 /// Poses X_WF; the middle of the mesh's box comes to each place.
 std::vector<Pose> scatter(const Scatter& rule, const MeshBounds& bounds);
 
-/// How many poses are the same as an earlier one, bit by bit: instances of one mesh there are one in another.
+/// How many poses equal an earlier one bit by bit: instances of one mesh there coincide.
 std::size_t count_coincident(std::span<const Pose> poses);
 
 }  // namespace lmdbench

@@ -36,8 +36,8 @@ SceneSearch::SceneSearch(const Scene& scene, const MethodDescription& descriptio
   LMDBENCH_EXPECTS(!scene.several_move() ||
                        (scene.mover_poses != nullptr && scene.mover_poses->size() == scene.movers.size()),
                    "movers of which nobody says where they are");
-  // Each body is prepared now, not in the frame in which it first comes near; of several movers other pairs of bodies than the first
-  // one's are made when they meet.
+  // Bodies are prepared now, not when they first come near; pairs of several movers beyond the
+  // first one's are made when they meet.
   for (std::uint32_t other = 1; other < scene.object_count(); ++other) methods_of({0, other});
   // An instance of the method knows better what its options make of it.
   if (scene.object_count() > 1) description_ = methods_of({0, 1}).shared().description();

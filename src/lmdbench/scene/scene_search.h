@@ -20,19 +20,19 @@
 
 namespace lmdbench {
 
-/// A method of two bodies over a scene, whatever moves in it, deforms, or stands in how many instances:
+/// A method of two bodies over a scene, whatever moves, deforms or is instanced:
 ///
-/// 1. a broad phase says which pairs of objects may be within reach (broad_phase.h);
-/// 2. each of them is asked in the frame of its second mesh: the method of the two meshes sees the relative pose, in their near frames
-///    (lmd/near_frame.h), and nothing of a mesh is copied or placed for an instance;
-/// 3. the sets are brought to the world, called after the pair (`ObjectPair::number`) and sorted by `lmd_less`.
+/// 1. the broad phase says which pairs of objects may be within reach (broad_phase.h);
+/// 2. each is searched in the frame of its second mesh: the method sees the relative pose, in near
+///    frames (lmd/near_frame.h); no mesh is copied or placed for an instance;
+/// 3. the sets are brought to the world, named by `ObjectPair::number`, sorted by `lmd_less`.
 ///
-/// A set is a union over pairs, because contacts of different pairs are never one LMD (decision/DEFINITION.md). A nearest pair is one a
-/// mover: an LMD stays that is nearest for one of its movers. Where the method keeps something from frame to frame
-/// (`MethodDescription::frame_coherent`) a pair that comes near is given a method for itself, out of a pool, and gives it back when it is
-/// no candidate any more; else one serves all pairs of two meshes. Methods that look at all pairs of triangles (`brute_force`) are truth:
-/// they look at the spheres of every pair in every frame, and share nothing of the broad phase. Of a pair the object with the lower number
-/// is the moving mesh: the order of what stands and of the trees takes no part.
+/// The set is a union over pairs: contacts of different pairs are never one LMD
+/// (decision/DEFINITION.md). Of nearest pairs each mover keeps one: an LMD stays that is nearest
+/// for one of its movers. A `frame_coherent` method belongs to one pair from a pool while that is a
+/// candidate; else one serves all pairs of two meshes. `brute_force` methods are truth: they look
+/// at the spheres of all pairs in every frame, without the broad phase. The object with the lower
+/// number is the moving mesh, so orders of objects and trees do not matter.
 ///
 /// A scene of one pair is asked as it is: no broad phase, and no set is copied.
 class SceneSearch : public Method, public HasOwnWrench {
@@ -84,8 +84,8 @@ class SceneSearch : public Method, public HasOwnWrench {
   std::vector<bool> has_nearest_;              ///< One a mover.
 };
 
-/// The method with what is counted beside it in a scene of other than one pair: movers that left their slack, and so queries of the trees;
-/// pairs of objects whose bounds were placed or whose room was used up; pairs whose meshes were searched.
+/// The method with what a scene of other than one pair counts: movers that left their slack
+/// (queries of trees); pairs whose bounds were placed or room was used up; pairs searched.
 MethodDescription over_scene(MethodDescription description);
 
 }  // namespace lmdbench

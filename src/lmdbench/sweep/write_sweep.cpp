@@ -121,7 +121,7 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
   for (std::size_t i = 0; i < result.points.size(); ++i)
     fronts.push_back(on_front(sweep, result, i) ? 1.0 : 0.0);
   writer.write({"/points/on_front", "1",
-                "1 where no point of the problem has both less force error and less run time"},
+                "1 where no point of the problem is no worse in force error and run time and better in one"},
                std::span<const double>(fronts), {fronts.size()});
   column("/points/maximum_force_n", "N", "F_max of one LMD, the scale of force errors",
          [&](const PointResult& point) {
@@ -135,7 +135,7 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
   });
   column("/points/truth_checked_frames", "1", "frames whose truth was compared with the exhaustive set",
          [](const PointResult& point) { return static_cast<double>(point.errors.truth_checked_frames); });
-  column("/points/truth_wrong_frames", "1", "of these, with another set",
+  column("/points/truth_wrong_frames", "1", "frames whose truth is not the exhaustive set",
          [](const PointResult& point) { return static_cast<double>(point.errors.truth_wrong_frames); });
   column("/points/begun", "1", "traversals that began: more than the repetitions where some were done again",
          [](const PointResult& point) { return static_cast<double>(point.begun); });

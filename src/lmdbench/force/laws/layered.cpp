@@ -4,8 +4,8 @@
 
 namespace lmdbench {
 
-/// As `shared`, but a component pushes in the mean direction of its surface: the direction of critical points has no limit where a
-/// contact conforms (a rod in a bore), that of the surface has.
+/// As `shared`, but a component pushes in the mean direction of its surface. That has a limit where
+/// a contact conforms (a rod in a bore); the direction of critical points has none.
 const Aggregation& layered_law() {
   static const Aggregation law{
       .name = "layered",

@@ -14,7 +14,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Over the cutoff: on longer pieces the mean of few patches bends more than three places tell.
+/// Over the cutoff: on longer intervals the mean of few patches bends too much for three nodes.
 constexpr double LONGEST_PIECE = 1.0 / 32.0;
 
 /// A unit force and its torque.
@@ -35,7 +35,7 @@ struct Component {
   double level = 0.0;   ///< t up to which it has pushed.
   double length = 0.0;  ///< Of its branches up to there.
   Push of_minima;       ///< Weighted by their shares.
-  // Of its patches so far: sums of area (t - distance) are t * area - area_distance, and so for their pushes.
+  // Sums over its patches: that of area (t - distance) is t * area - area_distance; so of pushes.
   double area = 0.0, area_distance = 0.0;
   Push push, push_distance;
 };
@@ -123,7 +123,7 @@ class LevelIntegral {
     c.level = level;
   }
 
-  /// Gauss-Legendre with weights that add up to what one direction alone would have.
+  /// Gauss-Legendre with weights whose sum is exact for a single direction.
   void integrate(const Component& c, double from, double to) {
     static const double AWAY = std::sqrt(0.6);
     const std::array<double, 3> place{0.5 - 0.5 * AWAY, 0.5, 0.5 + 0.5 * AWAY},

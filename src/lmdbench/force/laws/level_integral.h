@@ -6,15 +6,15 @@
 
 namespace lmdbench {
 
-/// F = integral over t of -f'(t) times the sum, over the components of {distance <= t}, of the component's mean push. A minimum alone
-/// in its component up to the cutoff has its whole force; where two components meet at a saddle they go on as one.
+/// F = integral over t of -f'(t) times the sum, over components of {distance <= t}, of their mean
+/// pushes. A minimum alone in its component up to the cutoff has its whole force; two components
+/// that meet at a saddle go on as one.
 ///
 /// The mean push of a component at level t:
-/// - without samples: that of its minima, -u, each by its share. At a merge the shares of either side are multiplied by that side's
-///   part of the length of all branches, so a minimum vanishes where it dies and the order of merges does not matter;
-/// - with them: over its patches of surface, each by area (t - its distance), and over the minima, together by
-///   `minimum_area` times the length of all branches.
-///
+/// - without samples: of its minima, -u each, by shares. A merge multiplies a side's shares by its
+///   part of all branches' length: a minimum vanishes where it dies, in any order of merges;
+/// - with samples: of its patches of surface, each by area (t - its distance), and of its minima,
+///   all together by `minimum_area` times the length of all branches.
 /// Weights are not negative, so no force ever pulls.
 /// @param samples  ForceInput's, or none
 Wrench integrate_levels(const ForceInput& input, std::span<const SurfaceSample> samples,

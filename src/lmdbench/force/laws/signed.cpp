@@ -7,9 +7,9 @@ namespace lmdbench {
 
 namespace {
 
-/// F = - sum over all critical pairs of index * f(d) * direction. Where a minimum is born or dies it has a saddle beside it, at the same
-/// distance and in the same direction, and both cancel. It is the gradient of a potential, sum of index * (integral of f from d to the
-/// cutoff), so it does no work in a closed loop; between walls at less than 60 degrees to each other it may pull.
+/// F = - sum over critical pairs of index * f(d) * direction. At births and deaths a minimum and a
+/// saddle cancel. F is a gradient, of the sum of index * (integral of f from d to the cutoff): no
+/// work in a closed loop. Between walls at less than 60 degrees it may pull.
 Wrench sum_of_signed_forces(const ForceInput& input, const ForceProfile& profile, const Vec3& reference_W) {
   WrenchSum sum(reference_W);
   for (const CriticalPair& critical : input.critical) {

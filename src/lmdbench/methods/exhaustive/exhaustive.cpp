@@ -22,7 +22,7 @@ Eigen::AlignedBox3d placed_box(const ShapeSide& side, const FeatureId& feature) 
   return box;
 }
 
-/// The lead of what a face, edge or vertex is part of; index -1 inside of it or of nothing.
+/// Lead of the shape's feature that holds a face, edge or vertex; index -1 if there is none.
 FeatureId lead_of(const ShapeComplex& shape, const FeatureId& feature) {
   if (feature.kind == FeatureKind::VERTEX) return shape.is_corner(feature.index) ? feature : FeatureId{};
   if (feature.kind == FeatureKind::EDGE) {

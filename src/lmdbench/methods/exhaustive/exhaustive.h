@@ -16,9 +16,9 @@ namespace lmdbench {
 
 const MethodDescription& exhaustive_method();
 
-/// Ground truth (decision/DEFINITION.md): the definition is asked for every pair of features of the shapes whose boxes come
-/// within reach, every pair of triangles whose boxes overlap for a shared point. Slow and simple on purpose: no
-/// hierarchy, no cone and no filter, only a uniform grid that lists what is near a box.
+/// Ground truth (decision/DEFINITION.md): decides every pair of features of the shapes whose boxes
+/// come within reach; tests every pair of triangles whose boxes overlap for a shared point. Slow
+/// and simple on purpose: no hierarchy, cone or filter, only a uniform grid for what is near a box.
 class Exhaustive : public Method {
  public:
   /// What it counts.

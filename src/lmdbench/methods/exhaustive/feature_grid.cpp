@@ -11,11 +11,11 @@ namespace lmdbench {
 
 namespace {
 
-/// Cells along the longest side of the mesh's box at the most: bounds the memory for meshes with a few huge
-/// and many tiny triangles.
+/// Most cells along the longest side of the mesh's box: bounds memory for few huge and many tiny
+/// triangles.
 constexpr int MAXIMUM_CELLS_PER_SIDE = 96;
-/// Cells that boxes cover on average at the most: those of long triangles round one vertex would each cover a good part of all, and
-/// then the cells are larger.
+/// Most cells a box covers on average; else cells are larger. Long triangles round one vertex would
+/// each cover a good part of all.
 constexpr double MOST_CELLS_A_BOX = 64.0;
 
 }  // namespace

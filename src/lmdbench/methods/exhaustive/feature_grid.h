@@ -19,13 +19,13 @@ namespace lmdbench {
 /// Axis-aligned bounding box of some vertices.
 Eigen::AlignedBox3d box_of_vertices(const Surface& surface, std::span<const std::int32_t> vertices);
 
-/// Uniform grid over the vertices, edges and faces of a mesh: lists those whose boxes lie within a distance of a query
-/// box. Used by one thread at a time.
+/// Uniform grid over a mesh's vertices, edges and faces: lists those whose boxes lie within a
+/// distance of a query box. Used by one thread at a time.
 class FeatureGrid {
  public:
   explicit FeatureGrid(const Surface& surface);
 
-  /// Calls `visit(feature)` once for each feature whose box is within `distance` [m] of `box`; order: cell by cell.
+  /// Calls `visit(feature)` once for each whose box is within `distance` [m] of `box`, by cells.
   template <class Visitor>
   void for_each_near(const Eigen::AlignedBox3d& box, double distance, Visitor&& visit) {
     if (boxes_.empty() || bounds_.squaredExteriorDistance(box) > distance * distance) return;

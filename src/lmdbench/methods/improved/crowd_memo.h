@@ -12,16 +12,16 @@
 
 namespace lmdbench {
 
-/// Triangle pairs of two neighbourhoods from which on they are a crowd. Two vertices of a scanned or remeshed surface
-/// have under 400 together, so that nothing is remembered there and the paper's algorithm costs what it costs.
+/// Triangle pairs of two neighbourhoods from which on they are a crowd. Two vertices of scanned or
+/// remeshed surfaces have under 400, so the paper's algorithm keeps its cost there.
 inline constexpr std::size_t CROWD_PAIRS = 1024;
 
-/// Remembers, within one local update, what the walks found round a pair of features in a crowd. Two hubs of k
-/// triangles have k^2 pairs, and up to k^2 candidates of a search walk there: looked at by each they cost k^4. What a
-/// walk finds there is the same each time, because distances and their initiators stay as they are in an update.
+/// Remembers, in one local update, results of walks round a pair of features in a crowd. Two hubs
+/// of k triangles have k^2 pairs, and up to k^2 candidates walk there: k^4 looks. Each finds the
+/// same: distances and initiators stay in an update.
 class CrowdMemo {
  public:
-  /// The shortest pair, and whom its distance and those that tie with it were first calculated for.
+  /// The shortest pair, and the LMDs for which its distance and ties were first calculated.
   struct Entry {
     Lmd lmd;
     std::int32_t initiator = -1;  ///< Of the shortest pair.

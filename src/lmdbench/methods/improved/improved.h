@@ -22,16 +22,16 @@ const MethodDescription& improved_method();
 const MethodDescription& improved_method_tracking_once();
 
 /// The improved algorithm (paper, section 4).
-///   Global search: G1, G2, G3.a/b on the nodes; at the leaves the visibility pre-test, then the exact
-///   triangle distance without further verification (4.1). The result are candidates: a vertex pair is found
-///   from every pair of triangles round it. Local tracking: L1..L4 with exact distances, a result cache that
-///   lives for one update, and its second use: a candidate whose minimum was already calculated for another
-///   one is dropped (4.2, 4.2.1). In the global thread tracking runs twice after a search: first reduction
-///   and second tracking (4.3, decision E11).
+/// Global search: G1, G2, G3.a/b on the nodes; at leaves the visibility pre-test, then the exact
+/// triangle distance without verification (4.1). It gives candidates: a vertex pair is found from
+/// every pair of triangles round it. Local tracking: L1..L4 with exact distances and a result cache
+/// for one update, with a second use: a candidate whose minimum was calculated for another one is
+/// dropped (4.2, 4.2.1). The global thread tracks twice after a search: first reduction and second
+/// tracking (4.3, decision E11).
 ///
-/// Decision E7, ours: candidates are processed nearest first (`TrackingOrder`), so that what the published
-/// rule drops does not depend on visiting order. That rule also drops an LMD whose minimum a neighbour's walk
-/// happened to look at and left; `Reduction::LOSS_FREE` drops only what ends on the same feature pair.
+/// Decision E7, ours: candidates come nearest first (`TrackingOrder`), so the published rule drops
+/// the same in any visiting order. It also drops an LMD whose minimum a neighbour's walk saw and
+/// left; `Reduction::LOSS_FREE` drops only what ends on the same feature pair.
 class Improved : public Method {
  public:
   /// What it counts.

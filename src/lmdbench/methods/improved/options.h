@@ -21,25 +21,24 @@ enum class Reduction : std::uint8_t {
   LOSS_FREE   ///< Only an LMD that ends on the same feature pair as another one.
 };
 
-/// In which order the improved algorithm's tracking takes the LMDs of a set (decision E7): what the published
-/// reduction drops depends on it.
+/// Order of LMDs in the improved algorithm's tracking (decision E7): the published reduction drops
+/// by it.
 enum class TrackingOrder : std::uint8_t {
   NEAREST_FIRST,  ///< By distance, then features (default: loses least).
   TRIANGLE_INDEX  ///< By triangle numbers, which say nothing about the distance.
 };
 
-/// Free choices of the improved algorithm; defaults are those of the reports. Members are called as in
-/// experiment files.
+/// Choices of the improved algorithm; defaults are the reports'. Named as in experiment files.
 struct ImprovedOptions {
   Visibility visibility = Visibility::VERTEX_NORMAL;
   Reduction reduction = Reduction::PUBLISHED;
   TrackingOrder tracking_order = TrackingOrder::NEAREST_FIRST;
   LeafCones leaf_cones = LeafCones::ONE_RING;  ///< Decision E1.
-  bool second_tracking = true;  ///< Decision E11; false: a search's set is tracked once before it is used.
-  bool plain_cache = false;     ///< Ablation: the result cache is a std::unordered_map; same answers.
-  bool literal_g3 = false;      ///< Ablation of decision E2: keep what the printed inequality keeps.
-  std::int32_t search_threads = 1;  ///< Of the global search (the paper's future work); same sets, same bits.
-  bool clamped_sigma = false;       ///< Ablation of decision E3: a right angle where spheres overlap.
+  bool second_tracking = true;                 ///< Decision E11; false: searches are tracked once.
+  bool plain_cache = false;         ///< Ablation: std::unordered_map as result cache; same answers.
+  bool literal_g3 = false;          ///< Ablation of decision E2: the printed inequality.
+  std::int32_t search_threads = 1;  ///< Of the global search (the paper's future work); same bits.
+  bool clamped_sigma = false;       ///< Ablation of decision E3: 90 degrees where spheres overlap.
 };
 
 }  // namespace lmdbench

@@ -11,8 +11,8 @@
 
 namespace lmdbench {
 
-/// The result cache as the standard library has it: what the paper's authors may have used, since they say nothing of
-/// theirs. Same answers as `ResultCache`; how much of the reduction's time is the container shows beside it (claim K6).
+/// The result cache on the standard library's map, as the paper, silent on it, may have it. Same
+/// answers as `ResultCache`; shows the container's part of the reduction's time (claim K6).
 class PlainCache {
  public:
   using Entry = ResultCache::Entry;

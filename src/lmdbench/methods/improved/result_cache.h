@@ -11,10 +11,10 @@
 
 namespace lmdbench {
 
-/// The result cache of the improved local tracking (paper, section 4.2.1): for each triangle pair whose
-/// distance was calculated in this update its nearest points and features, and the LMD that initiated the
-/// calculation. An open-addressing table whose slots carry the update's number, because it is emptied in
-/// every haptic frame: emptying costs nothing, and after warm-up nothing is allocated.
+/// The result cache of the improved local tracking (paper, section 4.2.1): for each triangle pair
+/// measured in this update its nearest points and features, and the LMD that initiated it. An
+/// open-addressing table whose slots carry the update's number: emptying it in every haptic frame
+/// costs nothing, and after warm-up nothing is allocated.
 class ResultCache {
  public:
   struct Entry {

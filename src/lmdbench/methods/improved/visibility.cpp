@@ -15,8 +15,8 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Triangle2 = std::array<Vec2, 3>;
 
-/// True when a side of `of` separates the triangles; touching is not separated. Works for both orientations:
-/// the third corner tells the inner side.
+/// True when a side of `of` separates the triangles, which do not touch. The third corner tells the
+/// inner side, for both orientations.
 bool some_side_separates(const Triangle2& of, const Triangle2& other) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec2 side = of[(k + 1) % 3] - of[k];
@@ -51,7 +51,7 @@ bool project(const ShadedTriangle& seer, const ShadedTriangle& seen, Triangle& p
   return true;
 }
 
-/// Whether two triangles in a plane overlap: in space as in their shadows along the axis that the plane faces most.
+/// Whether coplanar triangles overlap: seen along the axis that their plane faces most.
 bool overlap(const Triangle& projected, const ShadedTriangle& seen) {
   Eigen::Index dropped = 0;
   seen.face_normal.cwiseAbs().maxCoeff(&dropped);

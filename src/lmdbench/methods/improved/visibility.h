@@ -36,20 +36,19 @@ inline ShadedTriangle to_world(const ShadedTriangle& t, const RigidTransform& X_
           X_WS.direction(t.face_normal)};
 }
 
-/// The visibility pre-test (paper, section 4.1, Fig. 6): `a` is projected on the plane of `b`, and `b` on the
-/// plane of `a`; a pair is culled when in either plane the projection and the other triangle do not overlap.
+/// The visibility pre-test (paper, section 4.1, Fig. 6): `a` is projected on the plane of `b`, and
+/// `b` on that of `a`; a pair is culled when projection and triangle are apart in either plane.
 ///
-/// Decision E6, ours: "using the vertex normals for projection" means that each corner moves along its vertex
-/// normal until it meets the other plane. A normal that is parallel to the plane or points away from it
-/// projects nowhere, and then this side culls nothing. `ORTHOGONAL` projects along the plane's normal
-/// instead; `OFF` sees everything. No policy is conservative on every mesh: reports state the recall of each.
+/// Decision E6, ours: "using the vertex normals for projection" means that each corner moves along
+/// its vertex normal to the other plane. A normal parallel to that plane or away from it projects
+/// nowhere; then this side culls nothing. `ORTHOGONAL` projects along the plane's normal; `OFF`
+/// culls nothing. No policy is conservative on every mesh: reports state each one's recall.
 bool see_each_other(const ShadedTriangle& a, const ShadedTriangle& b, Visibility visibility);
 
 /// One side of the pre-test with what it looks at, for figures.
 struct Sight {
-  std::optional<Triangle>
-      shadow;            ///< Projection of the seer on the plane of the seen; unset where there is none.
-  bool overlaps = true;  ///< Whether this side lets the pair pass.
+  std::optional<Triangle> shadow;  ///< Projection of the seer on the plane of the seen, if any.
+  bool overlaps = true;            ///< Whether this side lets the pair pass.
 };
 
 /// Default policy: each corner moves along its vertex normal.

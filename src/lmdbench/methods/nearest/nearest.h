@@ -12,22 +12,22 @@ namespace lmdbench {
 
 /// Free choices of `nearest`. Members are called as in experiment files.
 struct NearestOptions {
-  /// Begin each search with the bound that the last frame's pair gives. FCL has no such mode of its own; its
-  /// result may be seeded, which halves its time along a path and is what a user who cares for time does.
+  /// Begins a search with the last pair's bound. FCL has no such mode, but its result may be
+  /// seeded: half the time along a path, and what a user who cares for time does.
   bool warm_start = true;
 };
 
 const MethodDescription& nearest_method();
 
-/// What most programs do today: one contact a frame, the nearest pair of the meshes as FCL finds it (OBBRSS
-/// hierarchies, triangle by triangle), with a force while it is within the cutoff. Where the nearest pair
-/// changes its place, so does the whole force: that is what the multi-contact methods are measured against.
+/// What most programs do: one contact a frame, the nearest pair as FCL finds it (OBBRSS, triangle
+/// by triangle), with a force within the cutoff. Where that pair changes its place the whole force
+/// does: multi-contact methods are compared with this.
 ///
-/// 1. FCL sees the meshes at a unit mean edge length, because its kernel skips faces under an absolute size
+/// 1. FCL sees the meshes at a unit mean edge length: its kernel skips faces under an absolute size
 ///    (fcl_crosscheck.h). The search begins with the bound of the last frame's pair.
-/// 2. While the meshes are apart, distance and points are FCL's own, with its known errors on nearly parallel
-///    edges. In contact FCL's points mean nothing; there the triangles that it names are measured again.
-/// 3. FCL names triangles, an LMD names features: those of the exact distance of the two triangles.
+/// 2. While the meshes are apart, distance and points are FCL's own, with its known errors on
+///    nearly parallel edges. In contact they mean nothing; the triangles it names are measured.
+/// 3. FCL names triangles, an LMD features: those of the exact distance of the two triangles.
 class Nearest : public Method {
  public:
   /// What it counts.

@@ -11,8 +11,8 @@
 
 namespace lmdbench {
 
-/// Of every face itself and the faces across its edges (paper, Fig. 5 (a) in the wider reading): up to four. Nothing is
-/// across a boundary edge; across one of more than two triangles the one of least index is taken.
+/// A face and those across its edges (paper, Fig. 5 (a), wider reading): up to four. None is across
+/// a boundary edge; of more than two triangles at an edge the one of least index is.
 class FaceNeighbours {
  public:
   explicit FaceNeighbours(const Surface& surface) {

@@ -10,12 +10,12 @@
 
 namespace lmdbench {
 
-/// The original algorithm's stand-in for a triangle (test G4; paper, section 3.2.1): with N = 7 its 3 corners, 3 edge
-/// midpoints and face centre. Every point of the triangle is within edge / (2 sqrt 3) of one of them when it
-/// is equilateral, so the distance is over-estimated by at most that much a side.
-/// Beside the paper's, to see what their number buys: N = 3, the corners; 13, three evenly spread points an edge; 25,
-/// five an edge, and round the centre the corners and midpoints of the triangle shrunk to half.
-/// Order: those of TriangleFeature as far as they go, further points of edges, further points of the face.
+/// The original algorithm's stand-in for a triangle (test G4; paper, section 3.2.1): with N = 7 its
+/// 3 corners, 3 edge midpoints and face centre. In an equilateral triangle every point is within
+/// edge / (2 sqrt 3) of one: distances are over-estimated by at most that much a side. Other
+/// numbers, for comparison: N = 3, the corners; 13, three even points an edge; 25, five an edge,
+/// and round the centre corners and midpoints of the triangle at half size. Order: TriangleFeature,
+/// then further points of edges, then of the face.
 template <std::size_t N>
 using FeaturePoints = std::array<Vec3, N>;
 
@@ -35,7 +35,7 @@ constexpr TriangleFeature part_of_feature_point(std::size_t index) {
   return TriangleFeature::FACE;
 }
 
-/// Points of an edge are symmetric in its corners, so that both triangles of an edge give the same bits.
+/// Points of an edge are symmetric in its corners: its two triangles give the same bits.
 template <std::size_t N>
 FeaturePoints<N> feature_points(const Triangle& t) {
   static_assert(N == 3 || N == 7 || N == 13 || N == 25);

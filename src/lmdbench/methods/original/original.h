@@ -18,13 +18,14 @@
 
 namespace lmdbench {
 
-/// Test G5 of the original algorithm (paper, section 3.2.1): "the vector with selected distance is verified
-/// against the vertex/edge/face normals". A face's normal set is its normal, an edge's the arc between its
-/// faces' normals, a vertex's the circular cone round its pseudo-normal that holds the normals of its faces.
+/// Test G5 of the original algorithm (paper, section 3.2.1): "the vector with selected distance is
+/// verified against the vertex/edge/face normals". The normal set of a face is its normal; of an
+/// edge the arc between its faces' normals; of a vertex the circular cone round its pseudo-normal
+/// that holds its faces' normals.
 ///
-/// Decision E5, ours: a vector between two of 7x7 points hardly ever lies in such a set exactly, so it may
-/// leave it by a tolerance, a parameter that reports sweep. Boundary features accept every direction: their
-/// sets are not bounded by face normals.
+/// Decision E5, ours: a vector between two of 7x7 points is hardly ever exactly in such a set, so a
+/// tolerance is granted, which reports sweep. Boundary features accept every direction: face
+/// normals do not bound their sets.
 class DirectionVerification {
  public:
   /// @param tolerance_rad angle by which a direction may leave a normal set, 0 .. pi
@@ -40,20 +41,19 @@ class DirectionVerification {
   double tolerance_cosine_;
   double tolerance_sine_;
   bool accepts_all_;                    ///< The tolerance is a half turn.
-  std::vector<double> vertex_cosines_;  ///< #V; cosine of the vertex cone's half angle plus the tolerance.
+  std::vector<double> vertex_cosines_;  ///< #V; cosine of half vertex cone angle + tolerance.
 };
 
 const MethodDescription& original_method();
 
 /// The original algorithm (Johnson and Cohen 2001; Johnson and Willemsen 2003, 2004; as told in the
-/// paper, section 3.2).
-///   Global search: G1, G2 and G3 (dual solution line cone) on the nodes; at the leaves the least of 7x7
-///   point distances (G4), whose vector is verified against the normals of both feature points (G5). Local
-///   tracking: L1..L4 with 7x7 distances.
+/// paper, section 3.2). Global search: G1, G2, G3 (dual solution line cone) on the nodes; at leaves
+/// the least of 7x7 point distances (G4), its vector verified against both features' normals (G5).
+/// Local tracking: L1..L4 with 7x7 distances.
 ///
-/// Decision E4, ours: the formula of G3 is not in the paper; the default reads the line of centres as a ray,
-/// which equals the improved algorithm's G3.a/b and favours the original. Decision E13: LMDs with the same
-/// pair of feature points are one LMD.
+/// Decision E4, ours: the paper does not print the formula of G3; the default reads the line of
+/// centres as a ray, equal to the improved algorithm's G3.a/b, which favours the original. Decision
+/// E13: LMDs with the same pair of feature points are one LMD.
 class Original : public Method {
  public:
   /// What it counts.
@@ -89,7 +89,7 @@ class Original : public Method {
   const Surface &moving_, &fixed_;
   const Hierarchy &hierarchy_moving_, &hierarchy_fixed_;
   DirectionVerification verify_moving_, verify_fixed_;
-  std::optional<FaceNeighbours> faces_moving_, faces_fixed_;  ///< Set where the option asks for them.
+  std::optional<FaceNeighbours> faces_moving_, faces_fixed_;  ///< If the option asks.
   DualTraversal traversal_;
 };
 
