@@ -13,31 +13,10 @@ from pathlib import Path
 import interpreter  # noqa: F401  (chooses one that has what follows)
 from lmdbench_results import Result, ResultError, run_script, texts_of
 from readings import readings
-from region_cost import k5, k6, k7, k8, k9
-from region_force import k1, k2, k3, k4
-from claim_verdicts import NOT_MEASURED, VERDICTS
-from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, OPEN, verdict
-from region_sets import k10, k11, k12
+from claim_rules import CLAIMS, VERDICTS
+from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, NOT_MEASURED, OPEN, verdict
 from sweep_results import Sweep, commit_of, is_sweep
 from tables import table, write_text
-
-# Of each claim what judges it, the first of the lists that is there whole. A budget sweep varies the search period alone,
-# and a claim of hard or soft contact takes its scene.
-CLAIMS = (
-    ("K1", "Hard: the improved force is stable, the original's jumps between zero and strong", k1, (("claim-k1",), ("budget/bunny-hard",))),
-    ("K2", "Hard: the working set holds under 10 LMDs", k2, (("claim-k1",), ("budget/bunny-hard",))),
-    ("K3", "Soft: forces are similar, the original's slightly higher", k3, (("claim-k3",), ("budget/bunny-soft",))),
-    ("K4", "LMD counts are similar, the original's fluctuates more", k4, (("claim-k1",), ("budget/bunny-hard",))),
-    ("K5", "The reduction drops up to twenty times, more on denser meshes", k5, (("claim-k5",),)),
-    ("K6", "Searches cost the same; the reduction as much again; together about twice the original", k6, (("claim-k5",),)),
-    ("K7", "The local update is slower, much slower when hard", k7, (("claim-k7",), ("budget",))),
-    ("K8", "The device loop needs much less than the other threads and can share a core with local tracking", k8, (("roles",),)),
-    ("K9", "Updates above 1 kHz with over 10,000 triangles a mesh", k9, (("claim-k7", "claim-k5"), ("claim-k7",), ("budget",))),
-    ("K10", "The original misses pairs on large or unequal triangles, rarely on dense ones", k10,
-     (("claim-k10", "claim-k10-unequal"), ("claim-k10",), ("claim-k10-unequal",))),
-    ("K11", "Works on models with holes and on moving objects", k11, (("claim-k10-unequal",),)),
-    ("K12", "Precise intersection polylines are a by-product", k12, (("bunny-cut",),)),
-)
 
 
 class Roles(dict):
@@ -72,13 +51,13 @@ def part(evidence, scene):
 
 def judged(evidence):
     """(claim, words, names of its evidence or None, text, cells) of every claim."""
-    for claim, words, judge, alternatives in CLAIMS:
-        needs = next((names for names in alternatives if all(name.split("/")[0] in evidence for name in names)), None)
+    for claim, rule in CLAIMS.items():
+        needs = next((names for names in rule.evidence if all(name.split("/")[0] in evidence for name in names)), None)
         if needs is None:
-            yield claim, words, None, [], {}
+            yield claim, rule.short, None, [], {}
             continue
-        text, cells = judge(*(part(evidence[name.split("/")[0]], name.partition("/")[2]) for name in needs))
-        yield claim, words, needs, text, cells
+        text, cells = rule.judge(*(part(evidence[name.split("/")[0]], name.partition("/")[2]) for name in needs))
+        yield claim, rule.short, needs, text, cells
 
 
 def two_loads(claims, other):

@@ -15,8 +15,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 
 import numpy as np
 
-from claim_rules import rows
-from claim_verdicts import read_verdicts
+from claim_rules import read_verdicts, rows
 from lmdbench_results import Result, run_script
 from tables import write_text
 

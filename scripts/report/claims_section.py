@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The paper's claims on the page: what the page's own results say, the ledger's verdict, and links to what it rests on."""
 
-from claim_rules import rows
-from claim_verdicts import read_verdicts
+from claim_rules import read_verdicts, rows
 from lmdbench_results import ResultError
 
 # Where the evidence of a claim stands, by the sections' ids; a page links to those that it has.

@@ -14,13 +14,14 @@ import numpy as np
 from cases import FIGURES, Scratch, SharedScratch, call, text_of
 import check_format
 import claim_rules
+import claim_runs
 import claims
 import figure7
 import figure_style
 import lmdbench_results
 import summary
 import work_precision
-from claim_verdicts import read_verdicts
+from claim_rules import read_verdicts
 from lmdbench_results import Result, ResultError, truth_of
 from synthetic import misses, write_result
 
@@ -401,12 +402,12 @@ class ClaimsTest(ScriptsTest):
         claim = self.verdicts(self.edited("torn.h5", torn), self.soft)["K9"]
         self.assertEqual(claim.setting, "undecided")
         self.assertIn("undecided: ", claim.because)
-        self.assertIs(claim_rules.inside([1.0, 3.0], 2.0), None)
-        self.assertIs(claim_rules.inside([2.5, 3.0], 2.0), True)
-        self.assertIs(claim_rules.inside([1.0, 1.5], 2.0), False)
+        self.assertIs(claim_runs.inside([1.0, 3.0], 2.0), None)
+        self.assertIs(claim_runs.inside([2.5, 3.0], 2.0), True)
+        self.assertIs(claim_runs.inside([1.0, 1.5], 2.0), False)
 
     def test_one_repetition_decides_nothing(self):
-        self.assertIs(claim_rules.inside([2.5], 2.0), None)
+        self.assertIs(claim_runs.inside([2.5], 2.0), None)
         hard = write_result(self.path("once.h5"), repetitions=2)  # the first one warms up
         rows = self.verdicts(hard, self.soft)
         for name in ("K6", "K7", "K9"):
