@@ -5,7 +5,7 @@ which there is one a claim. The paper gives few numbers, so the thresholds are o
 not fitted to what a run shows. A claim that does not reproduce is a finding."""
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import claim_runs
@@ -27,7 +27,7 @@ class Rule:
     evidence: tuple  # names of results, the first of the lists that is there whole: SWEEP, a run, the roles, or SWEEP/SCENE
     paper: str = ""  # its words
     measure: str = ""  # our reading of them in two runs, with the rule
-    look: object = None  # look(Runs): numbers in a sentence, {part of the claim: whether it holds}, numbers, and what to say where all hold
+    look: object = None  # look(hard, soft): numbers in a sentence, {part of the claim: whether it holds}, and what to say where all hold
 
     def judge(self, *evidence):
         """(lines, cells) of all settings."""
@@ -171,7 +171,6 @@ class Claim:
     result: str  # our numbers in a sentence
     setting: str  # whether the claim holds in these runs: HOLDS, FAILS, OPEN or NOT_MEASURED
     because: str = ""  # which of its parts do not, or are undecided
-    numbers: dict = field(default_factory=dict)
     verdict: str = NOT_MEASURED  # over all settings
     reason: str = ""
 
@@ -181,17 +180,17 @@ class Claim:
         return self.setting + (f": {self.because.removeprefix(said)}" if self.because else "")
 
 
-def rows(hard, soft, verdicts, others=(), unequal=()):
+def rows(hard, soft, verdicts):
     """[Claim] of what two runs show. @param verdicts what read_verdicts() read"""
-    runs, claims = claim_runs.Runs(hard, soft, others, unequal), []
+    claims = []
     missing = {"verdict": NOT_MEASURED, "reason": "no ledger of verdicts (remedy: scripts/claims.sh)"}
     for name, rule in CLAIMS.items():
         if rule.look is None:
             continue
-        text, parts, numbers, *caveat = rule.look(runs)
+        text, parts, *caveat = rule.look(hard, soft)
         setting, because = claim_runs.judge(parts) if parts else (NOT_MEASURED, "")
         if setting == HOLDS and caveat:
             because = caveat[0]
         entry = verdicts.get(name, missing)
-        claims.append(Claim(name, rule.paper, rule.measure, text, setting, because, numbers, entry["verdict"], entry["reason"]))
+        claims.append(Claim(name, rule.paper, rule.measure, text, setting, because, entry["verdict"], entry["reason"]))
     return claims

@@ -1,19 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The paper's claims in two runs: prints them and writes claims.md and claims.json. Two runs are one setting of our free choices:
+"""The paper's claims in two runs: prints them and writes claims.md. Two runs are one setting of our free choices:
 their numbers stand beside the verdict of the ledger, which rests on all settings (claim_regions.py). The claims and their rules
 are in claim_rules.py."""
 
 import argparse
-import json
 import os
 import textwrap
-from dataclasses import asdict
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
-
-import numpy as np
 
 from claim_rules import read_verdicts, rows
 from lmdbench_results import Result, run_script
@@ -50,31 +46,16 @@ def plain(claims):
     return "\n".join(blocks)
 
 
-def without_nan(value):
-    """JSON has no NaN: null says that a number was not measured."""
-    if isinstance(value, dict):
-        return {key: without_nan(item) for key, item in value.items()}
-    if isinstance(value, (float, np.floating)):
-        return float(value) if np.isfinite(value) else None
-    return value
-
-
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("hard", help="result file of the experiment with hard contact")
     parser.add_argument("soft", help="result file of the experiment with soft contact")
-    parser.add_argument("--other", nargs="*", default=[], metavar="RESULT.h5",
-                        help="results on meshes of other densities (K5)")
-    parser.add_argument("--unequal", nargs="*", default=[], metavar="RESULT.h5",
-                        help="results on meshes of large or unequal triangles (K10)")
     parser.add_argument("--verdicts", metavar="FILE", help="ledger of claim_regions.py (results/reference/claim-verdicts.json)")
-    parser.add_argument("--out", required=True, metavar="DIR", help="directory of claims.md and claims.json")
+    parser.add_argument("--out", required=True, metavar="DIR", help="directory of claims.md")
     arguments = parser.parse_args(argv)
     hard, soft = Result(arguments.hard), Result(arguments.soft)
-    others, unequal = ([Result(file) for file in files] for files in (arguments.other, arguments.unequal))
-    claims = rows(hard, soft, read_verdicts(arguments.verdicts), others, unequal)
-    write_text(markdown(claims, [hard, soft, *others, *unequal]), arguments.out, "claims.md")
-    write_text(json.dumps([without_nan(asdict(claim)) for claim in claims], indent=2) + "\n", arguments.out, "claims.json")
+    claims = rows(hard, soft, read_verdicts(arguments.verdicts))
+    write_text(markdown(claims, [hard, soft]), arguments.out, "claims.md")
     print(plain(claims))
     return 0
 
