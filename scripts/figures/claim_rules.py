@@ -22,18 +22,19 @@ class Rule:
     settings of sweeps, which `settings` judges."""
 
     short: str
-    rule: str  # when a setting holds; formatted with the evidence
+    rule: str  # when it holds
     settings: object  # settings(Found, evidence, ...) adds rows and cells, and returns what stands below their table
     evidence: tuple  # names of results, the first of the lists that is there whole: SWEEP, a run, the roles, or SWEEP/SCENE
+    sections: tuple  # of the page of a run which its own numbers rest on, by their ids
     paper: str = ""  # its words
-    measure: str = ""  # our reading of them in two runs, with the rule
+    note: str = ""  # on what stands in the table of settings; formatted with the evidence
     look: object = None  # look(hard, soft): numbers in a sentence, {part of the claim: whether it holds}, and what to say where all hold
 
     def judge(self, *evidence):
         """(lines, cells) of all settings."""
         found = Found()
         below = self.settings(found, *evidence)
-        return [f"Rule: {self.rule.format(*evidence)}", "", *found.table(), *(below or [])], found.cells
+        return [f"Rule: {self.rule} {self.note.format(*evidence)}".rstrip(), "", *found.table(), *(below or [])], found.cells
 
 
 # A budget sweep varies the search period alone, and a claim of hard or soft contact takes its scene.
@@ -41,109 +42,92 @@ CLAIMS = {
     "K1": Rule(
         short="Hard: the improved force is stable, the original's jumps between zero and strong",
         paper="Hard: our method shows good force stability, the original jumps quickly from zero to strong force and back (6.1).",
-        measure="Changes within one frame (1 ms at 1 kHz) between below 5 % and above 50 % of F_max, per second in contact: at least 1 for the original, at "
-                "most a tenth of it for the improved one, by the ends of their 95 % intervals (Poisson).",
-        look=claim_runs.k1,
-        rule="the original switches between below 5 % and above 50 % of F_max within a frame at least once a second in contact, and the improved one at most "
-             "a tenth as often, both by the ends of their 95 % intervals (Poisson, and bootstrap over paths). Truth is in every frame, under the method's "
-             "own law.",
-        settings=region_force.k1, evidence=(("claim-k1",), ("budget/bunny-hard",))),
+        rule="the original switches between below 5 % and above 50 % of F_max within a frame at least once a second in contact, and the improved one at most a tenth "
+             "as often, both by the ends of their 95 % intervals.",
+        note="Intervals: Poisson, and bootstrap over paths. Truth is in every frame, under the method's own law.",
+        look=claim_runs.k1, settings=region_force.k1, evidence=(("claim-k1",), ("budget/bunny-hard",)),
+        sections=("frames", "sweep-claim-k1", "study-claim-regions", "study-jumps")),
     "K2": Rule(
         short="Hard: the working set holds under 10 LMDs",
         paper="Hard: the working set of LMDs is relatively small (under 10) (6.1).",
-        measure="LMDs within the cutoff, frames in contact: the 99th percentile is under 10 for both methods.",
-        look=claim_runs.k2,
-        rule="of the frames in contact of a path, 99 % have at most 9 LMDs within the cutoff; mean over the paths, 95 % interval by bootstrap over paths.",
-        settings=region_force.k2, evidence=(("claim-k1",), ("budget/bunny-hard",))),
+        rule="of the frames in contact 99 % have at most 9 LMDs within the cutoff.",
+        note="Mean over the paths; 95 % interval by bootstrap over paths.",
+        look=claim_runs.k2, settings=region_force.k2, evidence=(("claim-k1",), ("budget/bunny-hard",)), sections=("frames", "study-claim-regions")),
     "K3": Rule(
         short="Soft: forces are similar, the original's slightly higher",
         paper="Soft: the resulting forces are very similar with both methods; the original generates slightly higher force (6.1).",
-        measure="Lengths of the force over the frames in contact: correlation at least 0.8; the original's mean is 0 to 50 % above the improved one's.",
-        look=claim_runs.k3,
-        rule="the original's mean force is 1 to 1.5 times the improved one's and the lengths of the two forces correlate by at least 0.8 (95 % intervals: "
-             "bootstrap over blocks of frames). The ratio is split: law = true linear mean / true exponential mean, both clipped as the setting says; LMDs = "
-             "a method's mean force / the true mean under its law and clip. ratio = law x original's LMDs / improved's LMDs.",
-        settings=region_force.k3, evidence=(("claim-k3",), ("budget/bunny-soft",))),
+        rule="the original's mean force is 1 to 1.5 times the improved one's and the lengths of the two forces correlate by at least 0.8.",
+        note="95 % intervals: bootstrap over blocks of frames. The ratio is split: law = true linear mean / true exponential mean, both clipped as the setting says; "
+             "LMDs = a method's mean force / the true mean under its law and clip. ratio = law x original's LMDs / improved's LMDs.",
+        look=claim_runs.k3, settings=region_force.k3, evidence=(("claim-k3",), ("budget/bunny-soft",)),
+        sections=("figure7", "sweep-claim-k3", "study-claim-regions", "study-hard-soft")),
     "K4": Rule(
         short="LMD counts are similar, the original's fluctuates more",
         paper="Both methods maintain a similar number of LMD pairs, though the original fluctuates more wildly (6.1).",
-        measure="Frames in contact: means within a factor of 1.5; the original gains and loses more LMDs per second.",
-        look=claim_runs.k4,
-        rule="the mean numbers of LMDs within the cutoff lie within a factor of 1.5 of each other, and the original's set gains and loses more LMDs a second "
-             "than the improved one's; 95 % intervals by bootstrap over paths.",
-        settings=region_force.k4, evidence=(("claim-k1",), ("budget/bunny-hard",))),
+        rule="the mean numbers of LMDs within the cutoff lie within a factor of 1.5 of each other, and the original's set gains and loses more LMDs a second than the "
+             "improved one's.",
+        note="95 % intervals by bootstrap over paths.",
+        look=claim_runs.k4, settings=region_force.k4, evidence=(("claim-k1",), ("budget/bunny-hard",)), sections=("frames", "figure7", "study-claim-regions")),
     "K5": Rule(
         short="The reduction drops up to twenty times, more on denser meshes",
-        paper="The reduction process is able to reduce the total number of LMD pairs up to twenty times; with more complex meshes the factor is greater "
-              "(6.1), an order of magnitude in high-poly models (4.2.1).",
-        measure="Candidates divided by those left after the first reduction: the largest ratio of a search lies between 10 and 40; the ratio of the sums "
-                "over all searches grows with the triangle count where results of several densities are given.",
-        look=claim_runs.k5,
-        rule="the largest ratio of candidates to LMDs that the first reduction keeps lies between 10 and 40. Counts, the same in every run: no interval. The "
-             "ratio over all searches is sum over sum.",
-        settings=region_cost.k5, evidence=(("claim-k5",),)),
+        paper="The reduction process is able to reduce the total number of LMD pairs up to twenty times; with more complex meshes the factor is greater (6.1), an "
+              "order of magnitude in high-poly models (4.2.1).",
+        rule="the largest ratio of candidates to LMDs that the first reduction keeps lies between 10 and 40.",
+        note="Counts, the same in every run: no interval. The ratio over all searches is sum over sum.",
+        look=claim_runs.k5, settings=region_cost.k5, evidence=(("claim-k5",),),
+        sections=("figure7", "sweep-claim-k5", "study-claim-regions", "study-recall-bunny-bunny")),
     "K6": Rule(
         short="Searches cost the same; the reduction as much again; together about twice the original",
-        paper="The base time of the global search is almost the same; the reduction after it can take the same time as the search itself; search and first "
-              "reduction are approximately two times longer than the original (6.1).",
-        measure="Medians over searches in contact: base ratio 0.8 to 1.25; 99th percentile of reduction / search at least 0.8; total ratio 1.5 to 2.5; "
-                "undecided where repetitions disagree or there is one.",
-        look=claim_runs.k6,
-        rule="base ratio 0.8 to 1.25; the reduction can take as long as the search: 99th percentile of reduction / search at least 0.8; total ratio 1.5 to "
-             "2.5; all by the ends of their intervals (bootstrap over the searches in contact, widened to the single repetitions; points interleaved in "
-             "random order). The counters beside them are the same in every run. Cache: ours is an open-addressing table, plain a std::unordered_map.",
-        settings=region_cost.k6, evidence=(("claim-k5",),)),
+        paper="The base time of the global search is almost the same; the reduction after it can take the same time as the search itself; search and first reduction "
+              "are approximately two times longer than the original (6.1).",
+        rule="searches in contact: base ratio 0.8 to 1.25; the reduction can take as long as the search: 99th percentile of reduction / search at least 0.8; total "
+             "ratio 1.5 to 2.5.",
+        note="All by the ends of their intervals: bootstrap over the searches, widened to the single repetitions; points interleaved in random order. The counters "
+             "beside them are the same in every run. Cache: ours is an open-addressing table, plain a std::unordered_map.",
+        look=claim_runs.k6, settings=region_cost.k6, evidence=(("claim-k5",),), sections=("frames", "study-claim-regions", "study-global-search")),
     "K7": Rule(
         short="The local update is slower, much slower when hard",
-        paper="The local update time is worse with our method, much worse with the hard force simulation; with soft force the difference is not as dramatic "
-              "(6.1).",
-        measure="Ratio of the median local update times, frames in contact: above 1 for both, at least 2 when hard, smaller by a tenth or more when soft; "
-                "undecided where repetitions disagree or there is one.",
-        look=claim_runs.k7,
-        rule="the improved update is at least twice the original's when hard, slower when soft, and less so when soft by a tenth. Only frames whose set is "
-             "not empty (an empty set costs no more than the clock); per LMD: sum of times over sum of LMDs carried. Reading the clock costs "
+        paper="The local update time is worse with our method, much worse with the hard force simulation; with soft force the difference is not as dramatic (6.1).",
+        rule="the improved update is at least twice the original's when hard, slower when soft, and less so when soft by a tenth.",
+        note="Only frames whose set is not empty (an empty set costs no more than the clock); per LMD: sum of times over sum of LMDs carried. Reading the clock costs "
              "{0.clock_overhead_ns:.0f} ns of each update. 95 % intervals: bootstrap over blocks of frames, widened to the single repetitions.",
-        settings=region_cost.k7, evidence=(("claim-k7",), ("budget",))),
+        look=claim_runs.k7, settings=region_cost.k7, evidence=(("claim-k7",), ("budget",)), sections=("frames", "sweep-claim-k7", "study-claim-regions")),
     "K8": Rule(
         short="The device loop needs much less than the other threads and can share a core with local tracking",
         paper="The Phantom loop consumes much less processing power than the other threads and can run together with local LMD tracking on one core (6.1).",
-        measure="Processor time of the device loop against the local and global threads.",
-        look=claim_runs.k8,
-        rule="the device loop (sum of the forces, clip, motion of the simulated device) takes at most half the processor time of local tracking and at most "
-             "half that of the global thread, and 99 % of the frames of device loop and local tracking together stay under 1 ms, so that one core serves "
-             "both; intervals: lowest and highest repetition. Closed loop of `experiments/{0[experiment]}.json`, a search every 20 frames. A method that "
-             "searches in every frame has no global thread. A real device is moved by a hand: the motion that the closed loop simulates stands in the device "
-             "loop, and is also left out as settings of their own.",
-        settings=region_cost.k8, evidence=(("roles",),)),
+        rule="the device loop (sum of the forces, clip, motion of the simulated device) takes at most half the processor time of local tracking and at most half that "
+             "of the global thread, and 99 % of the frames of device loop and local tracking together stay under 1 ms, so that one core serves both.",
+        note="Intervals: lowest and highest repetition. Closed loop of `experiments/{0[experiment]}.json`, a search every 20 frames. A method that searches in every "
+             "frame has no global thread. A real device is moved by a hand: the motion that the closed loop simulates stands in the device loop, and is also left out "
+             "as settings of their own.",
+        look=claim_runs.k8, settings=region_cost.k8, evidence=(("roles",),), sections=("study-claim-regions", "study-claims")),
     "K9": Rule(
         short="Updates above 1 kHz with over 10,000 triangles a mesh",
         paper="Update rates usually exceed 1 kHz (3), with bunnies of over 10,000 triangles each (6).",
-        measure="The 99th percentile of the improved local update is under 1 ms in every repetition (two at least) on meshes of more than 10,000 triangles.",
-        look=claim_runs.k9,
-        rule="the 99th percentile of the improved local update is under 1 ms on meshes of more than 10,000 triangles each, in every repetition (interval: "
-             "lowest and highest one).",
-        settings=region_cost.k9, evidence=(("claim-k7", "claim-k5"), ("claim-k7",), ("budget",))),
+        rule="the 99th percentile of the improved local update is under 1 ms on meshes of more than 10,000 triangles each, in every repetition.",
+        note="Interval: lowest and highest one.",
+        look=claim_runs.k9, settings=region_cost.k9, evidence=(("claim-k7", "claim-k5"), ("claim-k7",), ("budget",)), sections=("answer", "frames", "study-scaling")),
     "K10": Rule(
         short="The original misses pairs on large or unequal triangles, rarely on dense ones",
         paper="Missing pairs are infrequent on models with a dense triangle mesh, but become apparent with models containing large triangles (3).",
-        measure="Share of true LMDs that the original's working set lacks, neighbouring features counting as found: at most 5 % on dense meshes, at least 10 "
-                "% on meshes of large or unequal triangles.",
-        look=claim_runs.k10,
-        rule="of the true LMDs, neighbouring features counting as found, the original misses at most 5 % on dense meshes (bunnies) and at least 10 % on "
-             "large or unequal triangles. Fresh: a search in every frame whose result is used in it; aged: a search every 20 frames that takes 20. "
-             "`improved` under the same schedule is the control. Counts over one path: the same in every run.",
-        settings=region_sets.k10, evidence=(("claim-k10", "claim-k10-unequal"), ("claim-k10",), ("claim-k10-unequal",))),
+        rule="of the true LMDs, neighbouring features counting as found, the original misses at most 5 % on dense meshes (bunnies) and at least 10 % on large or "
+             "unequal triangles.",
+        note="Fresh: a search in every frame whose result is used in it; aged: a search every 20 frames that takes 20. `improved` under the same schedule is the "
+             "control. Counts over one path: the same in every run.",
+        look=claim_runs.k10, settings=region_sets.k10, evidence=(("claim-k10", "claim-k10-unequal"), ("claim-k10",), ("claim-k10-unequal",)),
+        sections=("work_precision", "sweep-claim-k10", "study-claim-regions", "study-recall-armadillo-bunny")),
     "K11": Rule(
         short="Works on models with holes and on moving objects",
-        rule="no point fails, and the improved method's fresh sets have recall and precision of at least 95 % (same features), on meshes with holes, with "
-             "fins, and on others. In every scene one of the objects moves; sets depend on the relative pose alone, so a second mover would change nothing. "
-             "Counts: the same in every run.",
-        settings=region_sets.k11, evidence=(("claim-k10-unequal",),)),
+        rule="no point fails, and the improved method's fresh sets have recall and precision of at least 95 % (same features), on meshes with holes, with fins, and on "
+             "others.",
+        note="In every scene one of the objects moves; sets depend on the relative pose alone, so a second mover would change nothing. Counts: the same in every run.",
+        settings=region_sets.k11, evidence=(("claim-k10-unequal",),), sections=("study-claim-regions", "study-extreme")),
     "K12": Rule(
         short="Precise intersection polylines are a by-product",
-        rule="where closed meshes intersect, every curve is closed, and its points lie on both surfaces within 1e-9 of the diagonal; checked against all "
-             "triangles by another program (numpy). Counts and points: the same in every run.",
-        settings=region_sets.k12, evidence=(("bunny-cut",),)),
+        rule="where closed meshes intersect, every curve is closed, and its points lie on both surfaces within 1e-9 of the diagonal; checked against all triangles by "
+             "another program (numpy).",
+        note="Counts and points: the same in every run.",
+        settings=region_sets.k12, evidence=(("bunny-cut",),), sections=("study-claim-regions", "study-deep-contact")),
 }
 
 VERDICTS = "claim-verdicts.json"
@@ -167,7 +151,7 @@ class Claim:
 
     id: str
     paper: str
-    measure: str  # our reading of the words, with the rule
+    measure: str  # the rule
     result: str  # our numbers in a sentence
     setting: str  # whether the claim holds in these runs: HOLDS, FAILS, OPEN or NOT_MEASURED
     because: str = ""  # which of its parts do not, or are undecided
@@ -192,5 +176,5 @@ def rows(hard, soft, verdicts):
         if setting == HOLDS and caveat:
             because = caveat[0]
         entry = verdicts.get(name, missing)
-        claims.append(Claim(name, rule.paper, rule.measure, text, setting, because, entry["verdict"], entry["reason"]))
+        claims.append(Claim(name, rule.paper, rule.rule, text, setting, because, entry["verdict"], entry["reason"]))
     return claims

@@ -24,7 +24,7 @@ def markdown(claims, results):
     lines = ["# Claims", "",
              "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "
              "The verdict is over all settings that were measured (claim-regions.md), and has its reason beside it. The paper gives few "
-             "numbers: the thresholds are ours and stand in the third column.", ""]
+             "numbers: the thresholds are ours and stand in the third column. Times decide where every repetition of at least two says the same.", ""]
     machine = results[0].machine()
     lines += [f"Machine: {machine.get('processor', 'unknown')}. Results: "
               + ", ".join(f"`{os.path.basename(result.file)}`" for result in results) + ".", "",

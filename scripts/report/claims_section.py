@@ -2,24 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The paper's claims on the page: what the page's own results say, the ledger's verdict, and links to what it rests on."""
 
-from claim_rules import read_verdicts, rows
+from claim_rules import CLAIMS, read_verdicts, rows
 from lmdbench_results import ResultError
-
-# Where the evidence of a claim stands, by the sections' ids; a page links to those that it has.
-EVIDENCE = {
-    "K1": ("frames", "sweep-claim-k1", "study-claim-regions", "study-jumps"),
-    "K2": ("frames", "study-claim-regions"),
-    "K3": ("figure7", "sweep-claim-k3", "study-claim-regions", "study-hard-soft"),
-    "K4": ("frames", "figure7", "study-claim-regions"),
-    "K5": ("figure7", "sweep-claim-k5", "study-claim-regions", "study-recall-bunny-bunny"),
-    "K6": ("frames", "study-claim-regions", "study-global-search"),
-    "K7": ("frames", "sweep-claim-k7", "study-claim-regions"),
-    "K8": ("study-claim-regions", "study-claims"),
-    "K9": ("answer", "frames", "study-scaling"),
-    "K10": ("work_precision", "sweep-claim-k10", "study-claim-regions", "study-recall-armadillo-bunny"),
-    "K11": ("study-claim-regions", "study-extreme"),
-    "K12": ("study-claim-regions", "study-deep-contact"),
-}
 
 
 def claims_of(results):
@@ -42,4 +26,4 @@ def claims_of(results):
 def evidence(claim, sections):
     """Links to the sections of the page, (id, title)."""
     titles = {section["id"]: section["title"] for section in sections}
-    return [(name, titles[name]) for name in EVIDENCE.get(claim, ()) if name in titles]
+    return [(name, titles[name]) for name in CLAIMS[claim].sections if name in titles]

@@ -247,7 +247,7 @@ class Verdicts(SweepScratch):
         text, cells = judged("K1", budget.restricted("bunny-hard"))
         self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
         with unittest.mock.patch.object(claim_regions, "CLAIMS", {name: CLAIMS[name] for name in ("K1", "K5")}):
-            page = claim_regions.markdown({"budget": budget})
+            page = claim_regions.markdown({"budget": budget}, claim_regions.judged({"budget": budget}))
         self.assertIn("| K5 | The reduction drops up to twenty times, more on denser meshes | **not measured**", page)
         self.assertIn("**reproduced** | in the one setting | 1 / 0 / 0 |", page)
 
@@ -306,7 +306,7 @@ class Verdicts(SweepScratch):
         def roles(hard, soft):
             rows = [role_row(f"original-{name}", share) for name, shares in (("hard", hard), ("soft", soft)) for share in shares]
             return {"roles": claim_regions.Roles(experiment="closed", rows=rows, context={"build": {"git_commit": "1234567890123"}})}
-        claims = list(claim_regions.judged(roles([0.1, 0.1], [0.1, 0.1])))
+        claims = claim_regions.judged(roles([0.1, 0.1], [0.1, 0.1]))
         text = "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.8, 0.8])))
         self.assertIn("| K8 | 2 | 0 | 1 | 1 |", text)
         self.assertIn("`roles` at 123456789012)", text)
