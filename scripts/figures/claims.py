@@ -13,33 +13,25 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 
 from claim_rules import read_verdicts, rows
 from lmdbench_results import Result, run_script
-from tables import write_text
-
-
-def verdict_text(claim):
-    return f"{claim.verdict}: {claim.reason}"
+from tables import table, write_text
 
 
 def markdown(claims, results):
-    lines = ["# Claims", "",
-             "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "
-             "The verdict is over all settings that were measured (claim-regions.md), and has its reason beside it. The paper gives few "
-             "numbers: the thresholds are ours and stand in the third column. Times decide where every repetition of at least two says the same.", ""]
-    machine = results[0].machine()
-    lines += [f"Machine: {machine.get('processor', 'unknown')}. Results: "
-              + ", ".join(f"`{os.path.basename(result.file)}`" for result in results) + ".", "",
-              "| | the paper's words | our measure | our numbers | in this setting | verdict over all settings |", "|---|---|---|---|---|---|"]
-    lines += ["| " + " | ".join(text.replace("|", "\\|") for text in
-                                (claim.id, claim.paper, claim.measure, claim.result, claim.in_this_setting(),
-                                 f"**{claim.verdict}**: {claim.reason}")) + " |"
-              for claim in claims]
-    return "\n".join(lines) + "\n"
+    cells = [[text.replace("|", "\\|") for text in (claim.id, claim.paper, claim.measure, claim.result, claim.in_this_setting(), f"**{claim.verdict}**: {claim.reason}")]
+             for claim in claims]
+    return "\n".join([
+        "# Claims", "",
+        "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "
+        "The verdict is over all settings that were measured (claim-regions.md), and has its reason beside it. The paper gives few "
+        "numbers: the thresholds are ours and stand in the third column. Times decide where every repetition of at least two says the same.", "",
+        f"Machine: {results[0].machine().get('processor', 'unknown')}. Results: {', '.join(f'`{os.path.basename(result.file)}`' for result in results)}.", "",
+        *table(["", "the paper's words", "our measure", "our numbers", "in this setting", "verdict over all settings"], cells)])
 
 
 def plain(claims):
     blocks = []
     for claim in claims:
-        lines = [f"{claim.id}: {verdict_text(claim)}"]
+        lines = [f"{claim.id}: {claim.verdict}: {claim.reason}"]
         for title, text in (("paper", claim.paper), ("rule", claim.measure), ("here", f"{claim.in_this_setting()}. {claim.result}")):
             lines += textwrap.wrap(text, width=110, initial_indent=f"  {title + ':':<7}", subsequent_indent=" " * 9)
         blocks.append("\n".join(lines))

@@ -313,15 +313,13 @@ def overload_part(study):
     plants = (("nothing", {}), ("a search that sleeps 100 ms", {"search_sleep_s": 0.1}), ("a recorder that stands still 1 s, room for 256 ticks", {"recorder_stall_s": 1.0}),
               ("tracking stopped 0.3 s", {"stopped_role": "tracking", "stop_s": STOPPED_S}), ("search stopped 0.3 s", {"stopped_role": "search", "stop_s": STOPPED_S}),
               ("a neighbour of the same priority, 10 of 50 ms", {"neighbour_busy_s": 0.01}))
-    lines = ["## Overload", "", "`improved` on the hard path for 8 s. Every frame is a tick, a skip that is counted, or a record that is counted as lost.", "",
-             "| planted | ticks | skipped | lost | of frames | grid kept | age of the set, largest [ms] | since its search, largest [ms] |", "|---|---|---|---|---|---|---|---|"]
+    rows = []
 
     def row(name, clock):
         frames = frames_of(clock)
         _, age, search_age = clock.ages_ms()
         whole = frames["ticks"] + frames["skipped"] + frames["lost"] == frames["all"]
-        lines.append(f"| {name} | {frames['ticks']} | {frames['skipped']} | {frames['lost']} | {frames['all']} | {'yes' if kept_grid(clock) and whole else 'NO'} | "
-                     f"{age.max():.1f} | {search_age.max():.1f} |")
+        rows.append([name, *frames.values(), "yes" if kept_grid(clock) and whole else "NO", f"{age.max():.1f}", f"{search_age.max():.1f}"])
 
     for number, (name, plant) in enumerate(plants):
         more = {"/driver/realtime/queue_ticks": 256} if "recorder_stall_s" in plant else {}
@@ -332,12 +330,14 @@ def overload_part(study):
     if stopped:
         row(f"the whole program stopped {STOPPED_S:g} s (SIGSTOP)", stopped)
     disk = study.if_there(lambda _: full_disk(study, settings), "overload-full-disk")
-    if disk is None and os.geteuid() == 0:
-        return [*lines, ""]
-    if disk is None:
-        return [*lines, "", "A full disk was not tried: it takes root to make one.", ""]
-    return [*lines, "", f"A disk that is full before the end: exit code {disk['exit']}, {disk['frames']} frames in the part file, result file {'there' if disk['result'] else 'not there'}: "
-            f"\"{' '.join(disk['error'])}\"", ""]
+    lines = ["## Overload", "", "`improved` on the hard path for 8 s. Every frame is a tick, a skip that is counted, or a record that is counted as lost.", "",
+             *table(["planted", "ticks", "skipped", "lost", "of frames", "grid kept", "age of the set, largest [ms]", "since its search, largest [ms]"], rows)]
+    if disk:
+        lines += [f"A disk that is full before the end: exit code {disk['exit']}, {disk['frames']} frames in the part file, result file "
+                  f"{'there' if disk['result'] else 'not there'}: \"{' '.join(disk['error'])}\"", ""]
+    elif os.geteuid() != 0:
+        lines += ["A full disk was not tried: it takes root to make one.", ""]
+    return lines
 
 
 def growth(position):

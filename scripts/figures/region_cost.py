@@ -60,18 +60,16 @@ def why_k5(counts):
                         for name, found in changes.items()) + ".", ""]
 
 
-class Searches:
-    """Times of a point's searches in contact, (R, S) [s], the warm-up left out."""
+def timed(point, name):
+    """(R, N) samples of a time [s], the warm-up left out."""
+    times = np.atleast_2d(point.sweep.samples(point, name))
+    return times[1 if len(times) > 1 else 0:]
 
-    def __init__(self, point):
-        counts = point.sweep.samples(point, "counts").astype(bool)
-        busy = counts[point.sweep.samples(point, "global_frame").astype(int)]
-        self.search, self.reduction = (self._measured(point, name, busy) for name in ("global_search_time", "first_reduction_time"))
 
-    @staticmethod
-    def _measured(point, name, busy):
-        times = np.atleast_2d(point.sweep.samples(point, name))
-        return np.nan_to_num(times[1 if len(times) > 1 else 0:][:, busy])
+def searches(point):
+    """Times of a point's searches in contact and of their first reductions, (R, S) [s]."""
+    busy = point.sweep.samples(point, "counts").astype(bool)[point.sweep.samples(point, "global_frame").astype(int)]
+    return [np.nan_to_num(timed(point, name)[:, busy]) for name in ("global_search_time", "first_reduction_time")]
 
 
 def time_interval(columns, statistic):
@@ -90,21 +88,21 @@ def k6(found, sweep):
         one = originals.get((mesh(point), cutoff_share(point)))
         if one is None:
             continue
-        a, b = Searches(one), Searches(point)
-        if not a.search.size or not b.search.size:
+        (before, _), (search, reduction) = searches(one), searches(point)
+        if not before.size or not search.size:
             continue
         nodes, leaves = (point.counter(name) / one.counter(name) for name in ("node_pairs", "leaf_pairs"))
-        base = time_interval((b.search, a.search), lambda new, old: np.median(new) / np.median(old))
-        share = time_interval((b.reduction, b.search), lambda reduction, search: np.quantile(reduction / search, 0.99))
-        total = time_interval((b.search, b.reduction, a.search), lambda new, more, old: np.median(new + more) / np.median(old))
+        base = time_interval((search, before), lambda new, old: np.median(new) / np.median(old))
+        share = time_interval((reduction, search), lambda more, new: np.quantile(more / new, 0.99))
+        total = time_interval((search, reduction, before), lambda new, more, old: np.median(new + more) / np.median(old))
         cell = all_of(decide(*base[1], at_least=0.8, at_most=1.25), decide(*share[1], at_least=0.8), decide(*total[1], at_least=1.5, at_most=2.5))
         plain = point.experiment["methods"][0].get("plain_cache")
         distances = point.counter("triangle_distances") / point.counter("leaf_pairs")
-        middle = float(np.median(b.reduction / b.search))
+        middle = float(np.median(reduction / search))
         measured.append((nodes, leaves, base[0], distances, middle, total[0]))
         found.add({"meshes": mesh(point), **size_columns(point), "cache": "plain" if plain else "ours", "node pairs, improved / original": shown(nodes),
                    "leaf pairs, improved / original": shown(leaves), "triangle distances, all, / leaf pairs": shown(distances),
-                   "original's search, median [ms]": shown(1e3 * float(np.median(a.search))), "base ratio": interval(*base),
+                   "original's search, median [ms]": shown(1e3 * float(np.median(before))), "base ratio": interval(*base),
                    "reduction / search, median": shown(middle), "99th percentile": interval(*share), "total ratio": interval(*total), "K6": cell},
                   f"{mesh(point)}{', plain hash map as cache' if plain else ''} | cutoff {100 * cutoff_share(point):g} %", cell)
     return why_k6(measured)
@@ -125,9 +123,7 @@ def why_k6(measured):
 
 def updates(point):
     """Times of local updates [s] by repetition and which frames count and carry LMDs."""
-    times = np.atleast_2d(point.sweep.samples(point, "local_update_time"))
-    counts = point.sweep.samples(point, "counts").astype(bool)
-    return times[1 if len(times) > 1 else 0:], counts & (point.sweep.samples(point, "tracked_count") > 0)
+    return timed(point, "local_update_time"), point.sweep.samples(point, "counts").astype(bool) & (point.sweep.samples(point, "tracked_count") > 0)
 
 
 def update_ratio(one, other):
