@@ -293,7 +293,7 @@ def markdown(sweep, picture):
         "Truth stands in every frame: the sets of `certified`, which in "
         f"{checked} frames of the problems were compared with `exhaustive` ({wrong or 'none'} differ). Forces are compared under each method's "
         "own law. Points take turns in random order; a frame counts with the median of its repetitions. Reading the clock costs "
-        f"{1e9 * sweep.clock_overhead:.0f} ns of every time. `certified` uses vector instructions, `original` and `improved` are "
+        f"{sweep.clock_overhead_ns:.0f} ns of every time. `certified` uses vector instructions, `original` and `improved` are "
         f"scalar: part of the distance between them is that.{load(sweep)}", ""]
     if picture:
         text += [f"![Error against run time]({picture})", ""]
