@@ -1,48 +1,33 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs every method on the extreme scenes (experiments/extreme/). Leaves results/extreme/*.h5,
-# summary.md and summary.json beside them, and prints the table. Exit code 1 if a value that must be
-# a number is none, or if an exact method is not exact.
-#   --program FILE   the program; build/release/lmdbench without it
-#   --out DIR        folder of the result files; results/extreme without it
-#   SCENE...         only these, such as 'needles far'; all without any
+# Runs every method on the extreme scenes (experiments/extreme/) and tells what each makes of them: results/extreme/*.h5,
+# summary.md and summary.json beside them, the table on standard output. Exit code 1 where a value is not a number that must be one
+# or an exact method is not exact.
+#   scripts/extreme.sh [SCENE...]   only these, such as 'needles far'; all without any
+#   LMDBENCH_BUILD=DIR              where the program is (build/release)
+#   LMDBENCH_EXTREME=DIR            where the results go (results/extreme)
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-program="$ROOT/build/release/lmdbench"
-out="$ROOT/results/extreme"
-scenes=()
-while (($# > 0)); do
-  case "$1" in
-    --program | --out)
-      (($# > 1)) || die 2 "$1 needs a value (remedy: $1 NAME)"
-      if [[ $1 == --program ]]; then program="$2"; else out="$2"; fi
-      shift
-      ;;
-    -*) die 2 "unknown argument '$1' (remedy: ./scripts/extreme.sh [--program FILE] [--out DIR] [SCENE...])" ;;
-    *)
-      [[ -e $ROOT/experiments/extreme/$1.json ]] || die 2 "no scene '$1' (remedy: ls experiments/extreme)"
-      scenes+=("$1")
-      ;;
-  esac
-  shift
-done
+cd "$ROOT"
+program="${LMDBENCH_BUILD:-build/release}/lmdbench"
+out="${LMDBENCH_EXTREME:-results/extreme}"
 [[ -x $program ]] || die "$EXIT_ENVIRONMENT" "no program at $program (remedy: cmake --preset release && cmake --build --preset release)"
-if ((${#scenes[@]} == 0)); then
-  for file in "$ROOT"/experiments/extreme/*.json; do scenes+=("$(basename "$file" .json)"); done
-fi
+scenes=("$@")
+(($#)) || mapfile -t scenes < <(basename -s .json experiments/extreme/*.json)
 PYTHON="$(find_python h5py matplotlib numpy)"
 
 mkdir -p "$out"
 results=()
 for scene in "${scenes[@]}"; do
-  "$program" run "$ROOT/experiments/extreme/$scene.json" --set /record/torque=true --out "$out/$scene.h5" </dev/null >/dev/null 2>"$out/$scene.log" || {
+  [[ -e experiments/extreme/$scene.json ]] || die 2 "no scene '$scene' (remedy: ls experiments/extreme)"
+  "$program" run "experiments/extreme/$scene.json" --set /record/torque=true --out "$out/$scene.h5" </dev/null >/dev/null 2>"$out/$scene.log" || {
     status=$?
     cat "$out/$scene.log" >&2
     die 1 "scene $scene: exit code $status"
   }
   results+=("$out/$scene.h5")
 done
-"$PYTHON" "$ROOT/scripts/figures/extreme.py" "${results[@]}" --out "$out/summary" --check
+"$PYTHON" scripts/figures/extreme.py "${results[@]}" --out "$out/summary" --check

@@ -18,7 +18,7 @@ keep=false
 while (($# > 0)); do
   case "$1" in
     --only)
-      (($# > 1)) || die 2 "--only needs a name (remedy: grep '^name:' scripts/mutants.txt)"
+      (($# > 1)) || die 2 "--only needs a name (remedy: its names: grep '^  [a-z]' scripts/mutants.txt)"
       only+=("$2")
       shift
       ;;
@@ -44,13 +44,18 @@ $keep || trap remove_tree EXIT
 # Fields of each mutant: name, file, from, to, test, only, equivalent; a unit separator between.
 mutants() {
   awk -v OFS='\037' '
-    function row_ends() {
-      if ("name" in field)
-        print field["name"], field["file"], field["from"], field["to"], field["test"], field["only"], field["equivalent"]
-      for (key in field) if (key != "file" && key != "test") delete field[key]
+    function row_ends() { if (name != "") print name, file, from, to, test, filter, reason; name = reason = "" }
+    /^[^ #]/ { row_ends(); file = $1; test = $2; filter_of_file = $3 }
+    /^  [^ ]/ {
+      row_ends()
+      colon = index($0, ": ")
+      split(substr($0, 3, colon - 3), words, / [(]|[)]/)
+      change = substr($0, colon + 2) " "
+      arrow = index(change, " => ")
+      name = words[1]; filter = words[2] == "" ? filter_of_file : words[2]
+      from = substr(change, 1, arrow - 1); to = substr(change, arrow + 4, length(change) - arrow - 4)
     }
-    /^(name: .*)?$/ { row_ends() }
-    /^[a-z]/ { colon = index($0, ":"); field[substr($0, 1, colon - 1)] = substr($0, colon + 2) }
+    /^    equivalent: / { reason = substr($0, 17) }
     END { row_ends() }' "$LIST"
 }
 
@@ -118,6 +123,6 @@ while IFS=$'\037' read -r -u 3 name file from to program filter reason; do
   git -C "$TREE" checkout --quiet --force -- "$file"
 done 3< <(mutants)
 printf '\n%d killed, %d survive, %d equivalent, %d broken\n' "$killed" "$survived" "$equivalent" "$broken"
-((killed + survived + equivalent + broken > 0)) || die 2 "no such defect (remedy: grep '^name:' scripts/mutants.txt)"
+((killed + survived + equivalent + broken > 0)) || die 2 "no such defect (remedy: its names: grep '^  [a-z]' scripts/mutants.txt)"
 ((broken == 0)) || exit 2
 ((survived == 0))

@@ -22,13 +22,13 @@ Pose grazing_pose(const Body& moving, const Body& fixed, double gap, Random& ran
   const Vec3 from_W = -random.direction();
   X_WM.translation =
       bounding_box_centre(fixed.surface().mesh) - X_WM.rotation * bounding_box_centre(moving.surface().mesh);
-  const double reach = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                      fixed.prepared<Hierarchy>(), X_WM, from_W, gap, GAP_TOLERANCE)
-                           .reach;
-  if (!std::isfinite(reach))
+  const double displacement = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                             fixed.prepared<Hierarchy>(), X_WM, from_W, gap, GAP_TOLERANCE)
+                                  .displacement;
+  if (!std::isfinite(displacement))
     throw std::runtime_error("no grazing pose between " + moving.name() + " and " + fixed.name() +
                              ": the approach line passes without coming near");
-  X_WM.translation += reach * from_W;
+  X_WM.translation += displacement * from_W;
   return X_WM;
 }
 

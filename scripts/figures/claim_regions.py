@@ -13,31 +13,10 @@ from pathlib import Path
 import interpreter  # noqa: F401  (chooses one that has what follows)
 from lmdbench_results import Result, ResultError, run_script, texts_of
 from readings import readings
-from region_cost import k5, k6, k7, k8, k9
-from region_force import k1, k2, k3, k4
-from claim_verdicts import NOT_MEASURED, VERDICTS
-from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, OPEN, verdict
-from region_sets import k10, k11, k12
+from claim_rules import CLAIMS, VERDICTS
+from region_rules import FAILS, HOLDS, MEAN_EDGE_DIAGONAL, NOT_MEASURED, OPEN, verdict
 from sweep_results import Sweep, commit_of, is_sweep
 from tables import table, write_text
-
-# The evidence of each claim: the first of the lists of which all exists. A budget sweep varies the
-# search period alone; a claim of hard or soft contact takes its scene of it.
-CLAIMS = (
-    ("K1", "Hard: the improved force is stable, the original's jumps between zero and strong", k1, (("claim-k1",), ("budget/bunny-hard",))),
-    ("K2", "Hard: the working set holds under 10 LMDs", k2, (("claim-k1",), ("budget/bunny-hard",))),
-    ("K3", "Soft: forces are similar, the original's slightly higher", k3, (("claim-k3",), ("budget/bunny-soft",))),
-    ("K4", "LMD counts are similar, the original's fluctuates more", k4, (("claim-k1",), ("budget/bunny-hard",))),
-    ("K5", "The reduction drops up to twenty times, more on denser meshes", k5, (("claim-k5",),)),
-    ("K6", "Searches cost the same; the reduction as much again; together about twice the original", k6, (("claim-k5",),)),
-    ("K7", "The local update is slower, much slower when hard", k7, (("claim-k7",), ("budget",))),
-    ("K8", "The device loop needs much less than the other threads and can share a core with local tracking", k8, (("roles",),)),
-    ("K9", "Updates above 1 kHz with over 10,000 triangles a mesh", k9, (("claim-k7", "claim-k5"), ("claim-k7",), ("budget",))),
-    ("K10", "The original misses pairs on large or unequal triangles, rarely on dense ones", k10,
-     (("claim-k10", "claim-k10-unequal"), ("claim-k10",), ("claim-k10-unequal",))),
-    ("K11", "Works on models with holes and on moving objects", k11, (("claim-k10-unequal",),)),
-    ("K12", "Precise intersection polylines are a by-product", k12, (("bunny-cut",),)),
-)
 
 
 class Roles(dict):
@@ -66,19 +45,15 @@ def load(file):
     return run.name, run
 
 
-def part(evidence, scene):
-    return evidence.restricted(scene) if isinstance(evidence, Sweep) else evidence
-
-
 def judged(evidence):
-    """(claim, words, names of its evidence or None, text, cells) of every claim."""
-    for claim, words, judge, alternatives in CLAIMS:
-        needs = next((names for names in alternatives if all(name.split("/")[0] in evidence for name in names)), None)
-        if needs is None:
-            yield claim, words, None, [], {}
-            continue
-        text, cells = judge(*(part(evidence[name.split("/")[0]], name.partition("/")[2]) for name in needs))
-        yield claim, words, needs, text, cells
+    """{claim: (names of its evidence, text, cells)} of those whose evidence is there."""
+    found = {}
+    for claim, rule in CLAIMS.items():
+        needs = next((names for names in rule.evidence if all(name.split("/")[0] in evidence for name in names)), ())
+        parts = [(evidence[name], scene) for name, _, scene in (name.partition("/") for name in needs)]
+        if parts:
+            found[claim] = ([name.split("/")[0] for name in needs], *rule.judge(*(one.restricted(scene) if scene else one for one, scene in parts)))
+    return found
 
 
 def two_loads(claims, other):
@@ -86,67 +61,63 @@ def two_loads(claims, other):
     contradict each other.
     @param claims what judged() made of the one run
     @param other evidence of the other"""
-    cells = {claim: found for claim, _, needs, _, found in claims if needs}
     rows, contradictions = [], []
-    for claim, _, needs, _, found in judged(other):
-        if needs is None or claim not in cells:
+    for claim, (_, _, found) in judged(other).items():
+        if claim not in claims:
             continue
-        both = [(name, cells[claim][name], cell) for name, cell in found.items() if name in cells[claim]]
+        cells = claims[claim][2]
+        both = [(name, cells[name], cell) for name, cell in found.items() if name in cells]
         against = [name for name, a, b in both if {a, b} == {HOLDS, FAILS}]
         contradictions += [f"{claim}, {name}" for name in against]
         rows.append([claim, len(both), sum(a == b for _, a, b in both), sum(a != b for _, a, b in both) - len(against), len(against),
-                     verdict(cells[claim])[0], verdict(found)[0]])
-    text = ["## The same sweeps on another load", "",
+                     verdict(cells)[0], verdict(found)[0]])
+    return ["## The same sweeps on another load", "",
             "Each was run again (" + ", ".join(f"`{name}` at {run.commit()}" for name, run in other.items())
             + "). A setting that holds in one run and does not in the other contradicts itself.", "",
-            *table(["claim", "settings in both", "the same", "undecided in one", "contradicting", "verdict", "verdict on the other load"], rows)]
-    return text + (["Contradicting: " + "; ".join(contradictions) + ".", ""] if contradictions else [])
+            *table(["claim", "settings in both", "the same", "undecided in one", "contradicting", "verdict", "verdict on the other load"], rows),
+            *(["Contradicting: " + "; ".join(contradictions) + ".", ""] if contradictions else [])]
 
 
-def markdown(evidence, other=None):
+def markdown(evidence, claims, other=None):
     """@param evidence {name: sweep, run or roles}
-    @param other the same of another run, of some of them"""
-    details, claims = [], list(judged(evidence))
-    for claim, words, needs, text, _ in claims:
-        if needs is None:
-            continue
-        made = ", ".join(f"`{name.split('/')[0]}` at {evidence[name.split('/')[0]].commit()}" for name in needs)
-        details += [f"## {claim}", "", f"{words}. From {made}.", "", *text]
+    @param claims what judged() made of it
+    @param other evidence of another run, of some of them"""
+    lines = ["# Where the paper's claims hold", "",
+             "The paper leaves constants, paths and meshes open (decision E8). `scripts/claims.sh` varies them and judges; it repeats every number here. "
+             "A setting whose interval crosses its threshold is undecided and decides nothing. Scenes are two bunnies of 16,298 triangles where no other "
+             f"is named; 1 mean edge is {100 * MEAN_EDGE_DIAGONAL:g} % of the diagonal."
+             + (" What the other readings of decisions E1 to E13 change: [at the end](#decisions-e1-to-e13)." if "readings" in evidence else ""), "",
+             *table(["claim", "in short", "verdict", "reason", "settings that hold / do not / undecided"], map(verdict_cells, entries(claims)))]
+    for claim, (names, text, _) in claims.items():
+        made = ", ".join(f"`{name}` at {evidence[name].commit()}" for name in names)
+        lines += [f"## {claim}", "", f"{CLAIMS[claim].short}. From {made}.", "", *text]
     if other:
-        details += two_loads(claims, other)
+        lines += two_loads(claims, other)
     if "readings" in evidence:
-        details += ["## Decisions E1 to E13", "", f"What the other reading would have changed. From `readings` at {evidence['readings'].commit()}.", "",
-                    *readings(evidence["readings"], evidence.get("direction-memory"))]
-    head = ["# Where the paper's claims hold", "",
-            "The paper leaves constants, paths and meshes open (decision E8). `scripts/claims.sh` varies them and judges; it repeats every number here. "
-            "A setting whose interval crosses its threshold is undecided and decides nothing. Scenes are two bunnies of 16,298 triangles where no other "
-            f"is named; 1 mean edge is {100 * MEAN_EDGE_DIAGONAL:g} % of the diagonal."
-            + (" What the other readings of decisions E1 to E13 change: [at the end](#decisions-e1-to-e13)." if "readings" in evidence else ""), ""]
-    return "\n".join(head + verdict_table(entries(claims)) + details) + "\n"
+        lines += ["## Decisions E1 to E13", "", f"What the other reading would have changed. From `readings` at {evidence['readings'].commit()}.", "",
+                  *readings(evidence["readings"], evidence.get("direction-memory"))]
+    return "\n".join(lines) + "\n"
 
 
 def entries(claims):
-    """The ledger: of every claim that was measured its one verdict, the reason, and how many settings stand behind it.
+    """The ledger: of every claim its one verdict, the reason, and how many settings stand behind it.
     @param claims what judged() made"""
     found = []
-    for claim, words, needs, text, cells in claims:
-        entry = {"claim": claim, "in_short": words, "verdict": NOT_MEASURED, "reason": "its sweep is not among these results"}
-        if needs is not None:
-            why = next((line.removeprefix("Why: ").rstrip(".") for line in text if line.startswith("Why: ")), "")
+    for claim, rule in CLAIMS.items():
+        entry = {"claim": claim, "in_short": rule.short, "verdict": NOT_MEASURED, "reason": "its sweep is not among these results"}
+        if claim in claims:
+            _, text, cells = claims[claim]
+            why = next((line.removeprefix("Why: ").split(". ")[0].rstrip(".") for line in text if line.startswith("Why: ")), "")
             entry["verdict"], entry["reason"] = verdict(cells, why)
             entry["settings"] = {kind: sum(cell == kind for cell in cells.values()) for kind in (HOLDS, FAILS, OPEN)}
         found.append(entry)
     return found
 
 
-def verdict_table(found):
-    rows = []
-    for entry in found:
-        settings = entry.get("settings")
-        name = f"[{entry['claim']}](#{entry['claim'].lower()})" if settings else entry["claim"]
-        rows.append([name, entry["in_short"], f"**{entry['verdict']}**", entry["reason"],
-                     " / ".join(str(settings[kind]) for kind in (HOLDS, FAILS, OPEN)) if settings else "-"])
-    return table(["claim", "in short", "verdict", "reason", "settings that hold / do not / undecided"], rows)
+def verdict_cells(entry):
+    settings, claim = entry.get("settings"), entry["claim"]
+    return [f"[{claim}](#{claim.lower()})" if settings else claim, entry["in_short"], f"**{entry['verdict']}**", entry["reason"],
+            " / ".join(map(str, settings.values())) if settings else "-"]
 
 
 def main(argv):
@@ -156,8 +127,9 @@ def main(argv):
     parser.add_argument("--out", required=True, metavar="DIR", help="directory of claim-regions.md and claim-verdicts.json")
     arguments = parser.parse_args(argv)
     evidence = dict(load(name) for name in arguments.files)
-    print(write_text(markdown(evidence, dict(load(name) for name in arguments.other)), arguments.out, "claim-regions.md"))
-    print(write_text(json.dumps(entries(judged(evidence)), indent=1) + "\n", arguments.out, VERDICTS))
+    claims = judged(evidence)
+    print(write_text(markdown(evidence, claims, dict(load(name) for name in arguments.other)), arguments.out, "claim-regions.md"))
+    print(write_text(json.dumps(entries(claims), indent=1) + "\n", arguments.out, VERDICTS))
     return 0
 
 

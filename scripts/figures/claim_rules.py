@@ -1,18 +1,148 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The paper's claims K1 to K10: its words, our measure, and the numbers of result files, which are one setting of the many that the
-verdict rests on (claim_verdicts.py): the rule says whether the claim holds in it. The paper gives few numbers, so the thresholds
-are ours: they read its words ("almost the same", "slightly") and are not fitted to what a run shows. A claim that does not
-reproduce is a finding."""
+"""The paper's claims K1 to K12, an entry each: its words, what is measured of it and where, and when it holds; with the ledger of their verdicts, of
+which there is one a claim. The paper gives few numbers, so the thresholds are ours: they read its words ("almost the same", "slightly") and are
+not fitted to what a run shows. A claim that does not reproduce is a finding."""
 
-from dataclasses import dataclass, field
+import json
+from dataclasses import dataclass
+from pathlib import Path
 
-import numpy as np
+import claim_runs
+import region_cost
+import region_force
+import region_sets
+from lmdbench_results import ResultError
+from region_rules import FAILS, HOLDS, NOT_MEASURED, OPEN, Found
 
-from claim_verdicts import NOT_MEASURED
-from intervals import Rate
-from lmdbench_results import median, quantile, truth_of
-from region_rules import FAILS, HOLDS, LEAST_REPETITIONS, OPEN, all_of
+
+@dataclass
+class Rule:
+    """Two runs are one setting of our free choices: `look` finds numbers there and whether the parts of the claim hold. The verdict is over the
+    settings of sweeps, which `settings` judges."""
+
+    short: str
+    rule: str  # when it holds
+    settings: object  # settings(Found, evidence, ...) adds rows and cells, and returns what stands below their table
+    evidence: tuple  # names of results, the first of the lists that is there whole: SWEEP, a run, the roles, or SWEEP/SCENE
+    sections: tuple  # of the page of a run which its own numbers rest on, by their ids
+    paper: str = ""  # its words
+    note: str = ""  # on what stands in the table of settings; formatted with the evidence
+    look: object = None  # look(hard, soft): numbers in a sentence, {part of the claim: whether it holds}, and what to say where all hold
+
+    def judge(self, *evidence):
+        """(lines, cells) of all settings."""
+        found = Found()
+        below = self.settings(found, *evidence)
+        return [f"Rule: {self.rule} {self.note.format(*evidence)}".rstrip(), "", *found.table(), *(below or [])], found.cells
+
+
+# A budget sweep varies the search period alone, and a claim of hard or soft contact takes its scene.
+CLAIMS = {
+    "K1": Rule(
+        short="Hard: the improved force is stable, the original's jumps between zero and strong",
+        paper="Hard: our method shows good force stability, the original jumps quickly from zero to strong force and back (6.1).",
+        rule="the original switches between below 5 % and above 50 % of F_max within a frame at least once a second in contact, and the improved one at most a tenth "
+             "as often, both by the ends of their 95 % intervals.",
+        note="Intervals: Poisson, and bootstrap over paths. Truth is in every frame, under the method's own law.",
+        look=claim_runs.k1, settings=region_force.k1, evidence=(("claim-k1",), ("budget/bunny-hard",)),
+        sections=("frames", "sweep-claim-k1", "study-claim-regions", "study-jumps")),
+    "K2": Rule(
+        short="Hard: the working set holds under 10 LMDs",
+        paper="Hard: the working set of LMDs is relatively small (under 10) (6.1).",
+        rule="of the frames in contact 99 % have at most 9 LMDs within the cutoff.",
+        note="Mean over the paths; 95 % interval by bootstrap over paths.",
+        look=claim_runs.k2, settings=region_force.k2, evidence=(("claim-k1",), ("budget/bunny-hard",)), sections=("frames", "study-claim-regions")),
+    "K3": Rule(
+        short="Soft: forces are similar, the original's slightly higher",
+        paper="Soft: the resulting forces are very similar with both methods; the original generates slightly higher force (6.1).",
+        rule="the original's mean force is 1 to 1.5 times the improved one's and the lengths of the two forces correlate by at least 0.8.",
+        note="95 % intervals: bootstrap over blocks of frames. The ratio is split: law = true linear mean / true exponential mean, both clipped as the setting says; "
+             "LMDs = a method's mean force / the true mean under its law and clip. ratio = law x original's LMDs / improved's LMDs.",
+        look=claim_runs.k3, settings=region_force.k3, evidence=(("claim-k3",), ("budget/bunny-soft",)),
+        sections=("figure7", "sweep-claim-k3", "study-claim-regions", "study-hard-soft")),
+    "K4": Rule(
+        short="LMD counts are similar, the original's fluctuates more",
+        paper="Both methods maintain a similar number of LMD pairs, though the original fluctuates more wildly (6.1).",
+        rule="the mean numbers of LMDs within the cutoff lie within a factor of 1.5 of each other, and the original's set gains and loses more LMDs a second than the "
+             "improved one's.",
+        note="95 % intervals by bootstrap over paths.",
+        look=claim_runs.k4, settings=region_force.k4, evidence=(("claim-k1",), ("budget/bunny-hard",)), sections=("frames", "figure7", "study-claim-regions")),
+    "K5": Rule(
+        short="The reduction drops up to twenty times, more on denser meshes",
+        paper="The reduction process is able to reduce the total number of LMD pairs up to twenty times; with more complex meshes the factor is greater (6.1), an "
+              "order of magnitude in high-poly models (4.2.1).",
+        rule="the largest ratio of candidates to LMDs that the first reduction keeps lies between 10 and 40.",
+        note="Counts, the same in every run: no interval. The ratio over all searches is sum over sum.",
+        look=claim_runs.k5, settings=region_cost.k5, evidence=(("claim-k5",),),
+        sections=("figure7", "sweep-claim-k5", "study-claim-regions", "study-recall-bunny-bunny")),
+    "K6": Rule(
+        short="Searches cost the same; the reduction as much again; together about twice the original",
+        paper="The base time of the global search is almost the same; the reduction after it can take the same time as the search itself; search and first reduction "
+              "are approximately two times longer than the original (6.1).",
+        rule="searches in contact: base ratio 0.8 to 1.25; the reduction can take as long as the search: 99th percentile of reduction / search at least 0.8; total "
+             "ratio 1.5 to 2.5.",
+        note="All by the ends of their intervals: bootstrap over the searches, widened to the single repetitions; points interleaved in random order. The counters "
+             "beside them are the same in every run. Cache: ours is an open-addressing table, plain a std::unordered_map.",
+        look=claim_runs.k6, settings=region_cost.k6, evidence=(("claim-k5",),), sections=("frames", "study-claim-regions", "study-global-search")),
+    "K7": Rule(
+        short="The local update is slower, much slower when hard",
+        paper="The local update time is worse with our method, much worse with the hard force simulation; with soft force the difference is not as dramatic (6.1).",
+        rule="the improved update is at least twice the original's when hard, slower when soft, and less so when soft by a tenth.",
+        note="Only frames whose set is not empty (an empty set costs no more than the clock); per LMD: sum of times over sum of LMDs carried. Reading the clock costs "
+             "{0.clock_overhead_ns:.0f} ns of each update. 95 % intervals: bootstrap over blocks of frames, widened to the single repetitions.",
+        look=claim_runs.k7, settings=region_cost.k7, evidence=(("claim-k7",), ("budget",)), sections=("frames", "sweep-claim-k7", "study-claim-regions")),
+    "K8": Rule(
+        short="The device loop needs much less than the other threads and can share a core with local tracking",
+        paper="The Phantom loop consumes much less processing power than the other threads and can run together with local LMD tracking on one core (6.1).",
+        rule="the device loop (sum of the forces, clip, motion of the simulated device) takes at most half the processor time of local tracking and at most half that "
+             "of the global thread, and 99 % of the frames of device loop and local tracking together stay under 1 ms, so that one core serves both.",
+        note="Intervals: lowest and highest repetition. Closed loop of `experiments/{0[experiment]}.json`, a search every 20 frames. A method that searches in every "
+             "frame has no global thread. A real device is moved by a hand: the motion that the closed loop simulates stands in the device loop, and is also left out "
+             "as settings of their own.",
+        look=claim_runs.k8, settings=region_cost.k8, evidence=(("roles",),), sections=("study-claim-regions", "study-claims")),
+    "K9": Rule(
+        short="Updates above 1 kHz with over 10,000 triangles a mesh",
+        paper="Update rates usually exceed 1 kHz (3), with bunnies of over 10,000 triangles each (6).",
+        rule="the 99th percentile of the improved local update is under 1 ms on meshes of more than 10,000 triangles each, in every repetition.",
+        note="Interval: lowest and highest one.",
+        look=claim_runs.k9, settings=region_cost.k9, evidence=(("claim-k7", "claim-k5"), ("claim-k7",), ("budget",)), sections=("answer", "frames", "study-scaling")),
+    "K10": Rule(
+        short="The original misses pairs on large or unequal triangles, rarely on dense ones",
+        paper="Missing pairs are infrequent on models with a dense triangle mesh, but become apparent with models containing large triangles (3).",
+        rule="of the true LMDs, neighbouring features counting as found, the original misses at most 5 % on dense meshes (bunnies) and at least 10 % on large or "
+             "unequal triangles.",
+        note="Fresh: a search in every frame whose result is used in it; aged: a search every 20 frames that takes 20. `improved` under the same schedule is the "
+             "control. Counts over one path: the same in every run.",
+        look=claim_runs.k10, settings=region_sets.k10, evidence=(("claim-k10", "claim-k10-unequal"), ("claim-k10",), ("claim-k10-unequal",)),
+        sections=("work_precision", "sweep-claim-k10", "study-claim-regions", "study-recall-armadillo-bunny")),
+    "K11": Rule(
+        short="Works on models with holes and on moving objects",
+        rule="no point fails, and the improved method's fresh sets have recall and precision of at least 95 % (same features), on meshes with holes, with fins, and on "
+             "others.",
+        note="In every scene one of the objects moves; sets depend on the relative pose alone, so a second mover would change nothing. Counts: the same in every run.",
+        settings=region_sets.k11, evidence=(("claim-k10-unequal",),), sections=("study-claim-regions", "study-extreme")),
+    "K12": Rule(
+        short="Precise intersection polylines are a by-product",
+        rule="where closed meshes intersect, every curve is closed, and its points lie on both surfaces within 1e-9 of the diagonal; checked against all triangles by "
+             "another program (numpy).",
+        note="Counts and points: the same in every run.",
+        settings=region_sets.k12, evidence=(("bunny-cut",),), sections=("study-claim-regions", "study-deep-contact")),
+}
+
+VERDICTS = "claim-verdicts.json"
+# The one that the project keeps; scripts/claims.sh makes another.
+REFERENCE = Path(__file__).resolve().parents[2] / "results" / "reference" / VERDICTS
+
+
+def read_verdicts(file=None):
+    """{claim: {"verdict", "reason", ...}}; empty where the scripts stand without the project's results."""
+    if file is None and not REFERENCE.exists():
+        return {}
+    try:
+        return {entry["claim"]: entry for entry in json.loads(Path(file or REFERENCE).read_text(encoding="utf-8"))}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ResultError(f"{file or REFERENCE}: is no ledger of verdicts: {error!r} (remedy: scripts/claims.sh verdicts)")
 
 
 @dataclass
@@ -21,11 +151,10 @@ class Claim:
 
     id: str
     paper: str
-    measure: str  # our reading of the words, with the rule
+    measure: str  # the rule
     result: str  # our numbers in a sentence
     setting: str  # whether the claim holds in these runs: HOLDS, FAILS, OPEN or NOT_MEASURED
-    because: str = ""  # parts that fail or are undecided
-    numbers: dict = field(default_factory=dict)
+    because: str = ""  # which of its parts do not, or are undecided
     verdict: str = NOT_MEASURED  # over all settings
     reason: str = ""
 
@@ -35,293 +164,17 @@ class Claim:
         return self.setting + (f": {self.because.removeprefix(said)}" if self.because else "")
 
 
-@dataclass
-class Runs:
-    """What the claims are judged by: a run with hard contact and one with soft; `others` on other meshes, for the dependence on
-    density (K5); `unequal` on meshes with large or unequal triangles (K10)."""
-
-    hard: object
-    soft: object
-    others: tuple = ()
-    unequal: tuple = ()
-
-    @property
-    def pair(self):
-        return [self.hard, self.soft]
-
-
-def of_each(results, look):
-    """(text, parts, numbers) of a rule that is asked of several results; look(result) gives them of one."""
-    found = [(result.name, *look(result)) for result in results]
-    return ("; ".join(f"{name}: {text}" for name, text, _, _ in found) + ".",
-            {f"{name}: {part}": holds for name, _, parts, _ in found for part, holds in parts.items()},
-            {name: numbers for name, _, _, numbers in found})
-
-
-def judge(parts):
-    """Whether all named parts of a claim hold in these runs (None: undecided), and which do not."""
-    cells = {name: OPEN if holds is None else HOLDS if holds else FAILS for name, holds in parts.items()}
-    rest = [f"{words}: {'; '.join(name for name, cell in cells.items() if cell == kind)}"
-            for kind, words in ((FAILS, "not"), (OPEN, "undecided")) if kind in cells.values()]
-    return all_of(*cells.values()), "; ".join(rest)
-
-
-def inside(values, low=-np.inf, high=np.inf):
-    """Whether what the repetitions say lies within limits: None where they disagree or there is but one, so that nothing said of
-    times turns from run to run."""
-    within = [bool(low <= value <= high) for value in values]
-    return within[0] if len(within) >= LEAST_REPETITIONS and len(set(within)) == 1 else None
-
-
-def both(result):
-    return result.method("original"), result.method("improved")
-
-
-def errors(result):
-    """What stands beside every time: recall and force error of both methods."""
-    texts = []
-    for method in both(result):
-        texts.append(f"{method.label} {100 * method.number('recall'):.0f} % "
-                     f"({100 * method.number('recall_adjacent'):.0f} % with neighbouring features), "
-                     f"{method.number('force_error_rms_n'):.2f} N" if truth_of(method)
-                     else f"{method.label} not measured")
-    return f"(recall and RMS force error, {result.name}: " + "; ".join(texts) + ")"
-
-
-ZERO_SHARE, STRONG_SHARE = 0.05, 0.5
-
-
-def switches(method):
-    """How often a second in contact the force changes within one frame from below 5 % of F_max to above 50 % or back, with
-    the limits of its count."""
-    result = method.result
-    force = method.force_magnitude() / result.maximum_force()
-    low, high = np.minimum(force[1:], force[:-1]), np.maximum(force[1:], force[:-1])
-    seconds = result.seconds_in_contact()
-    return Rate([np.count_nonzero((low < ZERO_SHARE) & (high > STRONG_SHARE))], [seconds])
-
-
-def events(rate):
-    return {"count": rate.count, "seconds": rate.seconds, "per_second": rate.value, "low": rate.low, "high": rate.high}
-
-
-def k1(runs):
-    original, improved = both(runs.hard)
-    switch_o, switch_i = switches(original), switches(improved)
-    large = {method.label: method.events("jumps") for method in both(runs.hard)}
-    true = {method.label: method.events("true_jumps") for method in both(runs.hard)}
-    text = (f"a second [95 %], or of fewer than ten how many in what time: zero-to-strong switches original {switch_o}, improved "
-            f"{switch_i}; changes above 25 % of F_max original {large['original']} (truth under its law {true['original']}), improved "
-            f"{large['improved']} (truth {true['improved']}). " + errors(runs.hard))
-    return text, {
-        "the improved force switches between zero and strong at most a tenth as often":
-            True if switch_i.high <= 0.1 * switch_o.low else False if switch_i.low > 0.1 * switch_o.high else None,
-        "the original jumps from zero to strong and back": inside((switch_o.low, switch_o.high), 1.0),
-    }, {"switches": {"original": events(switch_o), "improved": events(switch_i)},
-        "large_changes": {name: events(rate) for name, rate in large.items()},
-        "true_large_changes": {name: events(rate) for name, rate in true.items()}}
-
-
-def k2(runs):
-    counts = {method.label: {name: method.number(f"lmd_count_{name}") for name in ("median", "p99", "maximum")} for method in both(runs.hard)}
-    share = {method.label: float(np.mean(method.read("lmd_count")[runs.hard.in_contact()] < 10)) for method in both(runs.hard)}
-    text = "; ".join(f"{label} median {value['median']:.0f}, 99th percentile {value['p99']:.0f}, most {value['maximum']:.0f}, under 10 in "
-                     f"{100 * share[label]:.1f} % of frames" for label, value in counts.items())
-    return (text + ".", {f"{label}'s set stays under 10": value["p99"] < 10 for label, value in counts.items()},
-            {"lmd_count": counts, "share_under_10": share})
-
-
-def k3(runs):
-    contact = runs.soft.in_contact()
-    force_o, force_i = (method.force_magnitude()[contact] for method in both(runs.soft))
-    mean_o, mean_i = float(np.mean(force_o)), float(np.mean(force_i))
-    excess = mean_o / mean_i - 1.0 if mean_i > 0 else float("nan")
-    varying = force_o.std() > 0 and force_i.std() > 0
-    correlation = float(np.corrcoef(force_o, force_i)[0, 1]) if varying else float("nan")
-    text = (f"correlation {correlation:.2f}; mean force original {mean_o:.2f} N, improved {mean_i:.2f} N ({100 * excess:+.0f} %). "
-            + errors(runs.soft))
-    return text, {
-        "the forces are very similar (correlation)": correlation >= 0.8,
-        "the original's is higher": excess > 0.0,
-        "by little (up to 50 %)": abs(excess) <= 0.5,
-    }, {"correlation": correlation, "mean_force_n": {"original": mean_o, "improved": mean_i}}
-
-
-def k4(runs):
-    def look(result):
-        contact, seconds = result.in_contact(), result.seconds_in_contact()
-        mean = {m.label: float(np.mean(m.read("lmd_count")[contact])) for m in both(result)}
-        change = {m.label: float(np.sum(np.abs(np.diff(m.read("lmd_count"))))) / seconds for m in both(result)}
-        ratio = mean["original"] / mean["improved"] if mean["improved"] > 0 else float("nan")
-        text = (f"mean LMDs original {mean['original']:.2f}, improved {mean['improved']:.2f} (ratio {ratio:.2f}); LMDs gained and lost per "
-                f"second original {change['original']:.0f}, improved {change['improved']:.0f}")
-        return (text, {"similar counts": 2 / 3 <= ratio <= 1.5, "the original fluctuates more": change["original"] > change["improved"]},
-                {"mean": mean, "changes_per_second": change})
-
-    return of_each(runs.pair, look)
-
-
-def k5(runs):
-    def look(result):
-        improved, triangles = result.method("improved"), result.triangles()
-        ratio, most = improved.number("reduction_ratio"), improved.number("reduction_ratio_maximum")
-        return (f"{ratio:.1f} over all searches, {most:.1f} at most ({triangles:,} triangles)", {},
-                {"reduction_ratio": ratio, "reduction_ratio_maximum": most, "triangles": triangles})
-
-    results = [*runs.pair, *runs.others]
-    text, _, numbers = of_each(results, look)
-    found = [look(result)[2] for result in results]  # names may be equal
-    parts = {"up to about twenty times (10 to 40)": 10 <= max(one["reduction_ratio_maximum"] for one in found) <= 40}
-    thin, dense = (end(one["triangles"] for one in found) for end in (min, max))
-    if dense < 2 * thin:
-        return text, parts, numbers, "as far as measured; results of one density do not show the growth with the mesh"
-    of_thin, of_dense = (np.mean([one["reduction_ratio"] for one in found if one["triangles"] == density]) for density in (thin, dense))
-    return text, {**parts, "larger for denser meshes": of_dense > of_thin}, numbers
-
-
-def search_ratios(original, improved, busy, repetition):
-    """Base ratio, 99th percentile of reduction / search, and total ratio of one repetition, searches in contact."""
-    old, new, more = (method.times(name)[repetition][busy] for method, name in (
-        (original, "global_search_time"), (improved, "global_search_time"), (improved, "first_reduction_time")))
-    return median(new) / median(old), quantile(more / new, 0.99), median(new + more) / median(old)
-
-
-def k6(runs):
-    def look(result):
-        original, improved = both(result)
-        base_o, base_i = (method.number("global_search_median_s") for method in both(result))
-        total = improved.number("search_with_reduction_median_s") / base_o
-        busy = result.in_contact()[improved.read("global_frame").astype(int)]
-        share = (improved.median_times("first_reduction_time") / improved.median_times("global_search_time"))[busy]
-        base, reduction, whole = zip(*(search_ratios(original, improved, busy, r) for r in range(len(improved.times("global_search_time")))))
-        text = (f"base {base_i * 1e3:.3f} against {base_o * 1e3:.3f} ms (ratio {base_i / base_o:.2f}); reduction / search median "
-                f"{median(share):.2f}, 99th percentile {quantile(share, 0.99):.2f}; total ratio {total:.2f} {errors(result)}")
-        return text, {
-            "base time almost equal": inside(base, 0.8, 1.25),
-            "the reduction can take as long as the search": inside(reduction, 0.8),
-            "total about twice the original": inside(whole, 1.5, 2.5),
-        }, {"base_ratio": base_i / base_o, "reduction_share_median": median(share), "reduction_share_p99": quantile(share, 0.99),
-            "total_ratio": total}
-
-    return of_each(runs.pair, look)
-
-
-def local_ratio(result):
-    """Ratio of the medians, the medians, and the ratio of the means: an update that receives a new set of candidates
-    is long, and only the mean sees these few."""
-    times = {m.label: m.median_times("local_update_time")[result.in_contact()] for m in both(result)}
-    middle = {m.label: m.number("local_update_median_s") for m in both(result)}
-    means = np.mean(times["improved"]) / np.mean(times["original"])
-    return middle["improved"] / middle["original"], middle, float(means)
-
-
-def update_ratios(result):
-    """Improved / original of the median local update, by repetition."""
-    contact = result.in_contact()
-    new, old = (np.median(result.method(label).times("local_update_time")[:, contact], axis=1) for label in ("improved", "original"))
-    return new[: len(old)] / old[: len(new)]
-
-
-def k7(runs):
-    hard, soft = ({"ratio": ratio, "times": times, "means": means} for ratio, times, means in map(local_ratio, runs.pair))
-    hard_ratios, soft_ratios = map(update_ratios, runs.pair)
-    hard_ratios, soft_ratios = hard_ratios[: len(soft_ratios)], soft_ratios[: len(hard_ratios)]
-    medians = ", ".join(f"{name} {one['ratio']:.1f} ({one['times']['improved'] * 1e6:.1f} against {one['times']['original'] * 1e6:.1f} us)"
-                        for name, one in (("hard", hard), ("soft", soft)))
-    text = (f"{medians}; ratio of the means, which sees the few long updates that receive a new search's set: hard {hard['means']:.2f}, "
-            f"soft {soft['means']:.2f}. {errors(runs.hard)} {errors(runs.soft)}")
-    return text, {
-        "the local update is slower": inside(np.minimum(hard_ratios, soft_ratios), 1.0),
-        "much slower when hard (at least twice)": inside(hard_ratios, 2.0),
-        "less so when soft": inside(soft_ratios / hard_ratios, high=0.9),
-    }, {name: {"hard": hard[key], "soft": soft[key]}
-        for name, key in (("ratio", "ratio"), ("ratio_of_means", "means"), ("local_update_s", "times"))}
-
-
-def k8(_):
-    return "These runs have no device loop; `lmdbench-study roles` times it in a closed loop (claim-regions.md).", {}, {}
-
-
-def k9(runs):
-    def look(result):
-        improved, triangles = result.method("improved"), result.triangles(smallest=True)
-        samples = improved.times("local_update_time")
-        late, p99 = float(np.mean(samples > 1e-3)), improved.number("local_update_p99_s")
-        text = (f"local update 99th percentile {p99 * 1e3:.3f} ms ({1e-3 / p99:.0f} times the rate of 1 kHz), {100 * late:.3f} % of updates "
-                f"above 1 ms; meshes of at least {triangles:,} triangles {errors(result)}")
-        return text, {
-            "over 10,000 triangles a mesh": triangles > 10_000,
-            "above 1 kHz": inside(np.quantile(samples[:, result.in_contact()], 0.99, axis=1), high=1e-3),
-        }, {"local_update_p99_s": p99, "share_above_1ms": late, "smallest_mesh_triangles": triangles}
-
-    return of_each(runs.pair, look)
-
-
-def k10(runs):
-    parts, texts, numbers = {}, [], {}
-    for result, dense in [(r, True) for r in runs.pair] + [(r, False) for r in runs.unequal]:
-        original = result.method("original")
-        if truth_of(original) is None:
-            continue
-        missed, near = 1 - original.number("recall"), 1 - original.number("recall_adjacent")
-        texts.append(f"{result.name} ({'dense' if dense else 'large or unequal'}): the original misses "
-                     f"{100 * missed:.1f} % of the true LMDs, {100 * near:.1f} % when a neighbouring feature counts")
-        numbers[result.name] = {"missed": missed, "missed_adjacent": near, "dense": dense}
-        if dense:
-            parts[f"{result.name}: pairs are rarely missed on a dense mesh"] = near <= 0.05
-        else:
-            parts[f"{result.name}: pairs are missed on large or unequal triangles"] = near >= 0.1
-    if not parts:
-        return "The results have no truth probe.", {}, {}
-    return "; ".join(texts) + ".", parts, numbers, "" if runs.unequal else "as far as measured; no result on large or unequal triangles was given"
-
-
-# For each claim: the paper's words, our measure with its rule, and a function of runs. It returns
-# numbers in a sentence, whether each part holds (none: not measured), numbers, words if all hold.
-RULES = {
-    "K1": ("Hard: our method shows good force stability, the original jumps quickly from zero to strong force and back (6.1).",
-           "Changes within one frame (1 ms at 1 kHz) between below 5 % and above 50 % of F_max, per second in contact: at "
-           "least 1 for the original, at most a tenth of it for the improved one, by the ends of their 95 % intervals (Poisson).", k1),
-    "K2": ("Hard: the working set of LMDs is relatively small (under 10) (6.1).",
-           "LMDs within the cutoff, frames in contact: the 99th percentile is under 10 for both methods.", k2),
-    "K3": ("Soft: the resulting forces are very similar with both methods; the original generates slightly higher force (6.1).",
-           "Lengths of the force over the frames in contact: correlation at least 0.8; the original's mean is 0 to 50 % above the improved "
-           "one's.", k3),
-    "K4": ("Both methods maintain a similar number of LMD pairs, though the original fluctuates more wildly (6.1).",
-           "Frames in contact: means within a factor of 1.5; the original gains and loses more LMDs per second.", k4),
-    "K5": ("The reduction process is able to reduce the total number of LMD pairs up to twenty times; with more complex meshes the factor "
-           "is greater (6.1), an order of magnitude in high-poly models (4.2.1).",
-           "Candidates divided by those left after the first reduction: the largest ratio of a search lies between 10 and 40; the ratio of "
-           "the sums over all searches grows with the triangle count where results of several densities are given.", k5),
-    "K6": ("The base time of the global search is almost the same; the reduction after it can take the same time as the search itself; "
-           "search and first reduction are approximately two times longer than the original (6.1).",
-           "Medians over searches in contact: base ratio 0.8 to 1.25; 99th percentile of reduction / search at least 0.8; total ratio 1.5 "
-           "to 2.5; undecided where repetitions disagree or there is one.", k6),
-    "K7": ("The local update time is worse with our method, much worse with the hard force simulation; with soft force the difference is "
-           "not as dramatic (6.1).",
-           "Ratio of the median local update times, frames in contact: above 1 for both, at least 2 when hard, smaller by a tenth or more "
-           "when soft; undecided where repetitions disagree or there is one.", k7),
-    "K8": ("The Phantom loop consumes much less processing power than the other threads and can run together with local LMD tracking on one "
-           "core (6.1).", "Processor time of the device loop against the local and global threads.", k8),
-    "K9": ("Update rates usually exceed 1 kHz (3), with bunnies of over 10,000 triangles each (6).",
-           "The 99th percentile of the improved local update is under 1 ms in every repetition (two at least) on meshes of more than 10,000 "
-           "triangles.", k9),
-    "K10": ("Missing pairs are infrequent on models with a dense triangle mesh, but become apparent with models containing large triangles "
-            "(3).",
-            "Share of true LMDs that the original's working set lacks, neighbouring features counting as found: at most 5 % on dense "
-            "meshes, at least 10 % on meshes of large or unequal triangles.", k10),
-}
-
-
-def rows(hard, soft, verdicts, others=(), unequal=()):
-    """@param verdicts what read_verdicts() read"""
-    runs, claims = Runs(hard, soft, others, unequal), []
+def rows(hard, soft, verdicts):
+    """[Claim] of what two runs show. @param verdicts what read_verdicts() read"""
+    claims = []
     missing = {"verdict": NOT_MEASURED, "reason": "no ledger of verdicts (remedy: scripts/claims.sh)"}
-    for name, (paper, measure, look) in RULES.items():
-        text, parts, numbers, *caveat = look(runs)
-        setting, because = judge(parts) if parts else (NOT_MEASURED, "")
+    for name, rule in CLAIMS.items():
+        if rule.look is None:
+            continue
+        text, parts, *caveat = rule.look(hard, soft)
+        setting, because = claim_runs.judge(parts) if parts else (NOT_MEASURED, "")
         if setting == HOLDS and caveat:
             because = caveat[0]
         entry = verdicts.get(name, missing)
-        claims.append(Claim(name, paper, measure, text, setting, because, numbers, entry["verdict"], entry["reason"]))
+        claims.append(Claim(name, rule.paper, rule.rule, text, setting, because, entry["verdict"], entry["reason"]))
     return claims

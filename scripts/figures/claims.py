@@ -1,81 +1,53 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The paper's claims in two runs: prints them and writes claims.md and claims.json. Two runs are one setting of our free choices:
+"""The paper's claims in two runs: prints them and writes claims.md. Two runs are one setting of our free choices:
 their numbers stand beside the verdict of the ledger, which rests on all settings (claim_regions.py). The claims and their rules
 are in claim_rules.py."""
 
 import argparse
-import json
 import os
 import textwrap
-from dataclasses import asdict
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
 
-import numpy as np
-
-from claim_rules import rows
-from claim_verdicts import read_verdicts
+from claim_rules import read_verdicts, rows
 from lmdbench_results import Result, run_script
-from tables import write_text
-
-
-def verdict_text(claim):
-    return f"{claim.verdict}: {claim.reason}"
+from tables import table, write_text
 
 
 def markdown(claims, results):
-    lines = ["# Claims", "",
-             "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "
-             "The verdict is over all settings that were measured (claim-regions.md), and has its reason beside it. The paper gives few "
-             "numbers: the thresholds are ours and stand in the third column.", ""]
-    machine = results[0].machine()
-    lines += [f"Machine: {machine.get('processor', 'unknown')}. Results: "
-              + ", ".join(f"`{os.path.basename(result.file)}`" for result in results) + ".", "",
-              "| | the paper's words | our measure | our numbers | in this setting | verdict over all settings |", "|---|---|---|---|---|---|"]
-    lines += ["| " + " | ".join(text.replace("|", "\\|") for text in
-                                (claim.id, claim.paper, claim.measure, claim.result, claim.in_this_setting(),
-                                 f"**{claim.verdict}**: {claim.reason}")) + " |"
-              for claim in claims]
-    return "\n".join(lines) + "\n"
+    cells = [[text.replace("|", "\\|") for text in (claim.id, claim.paper, claim.measure, claim.result, claim.in_this_setting(), f"**{claim.verdict}**: {claim.reason}")]
+             for claim in claims]
+    return "\n".join([
+        "# Claims", "",
+        "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "
+        "The verdict is over all settings that were measured (claim-regions.md), and has its reason beside it. The paper gives few "
+        "numbers: the thresholds are ours and stand in the third column. Times decide where every repetition of at least two says the same.", "",
+        f"Machine: {results[0].machine().get('processor', 'unknown')}. Results: {', '.join(f'`{os.path.basename(result.file)}`' for result in results)}.", "",
+        *table(["", "the paper's words", "our measure", "our numbers", "in this setting", "verdict over all settings"], cells)])
 
 
 def plain(claims):
     blocks = []
     for claim in claims:
-        lines = [f"{claim.id}: {verdict_text(claim)}"]
+        lines = [f"{claim.id}: {claim.verdict}: {claim.reason}"]
         for title, text in (("paper", claim.paper), ("rule", claim.measure), ("here", f"{claim.in_this_setting()}. {claim.result}")):
             lines += textwrap.wrap(text, width=110, initial_indent=f"  {title + ':':<7}", subsequent_indent=" " * 9)
         blocks.append("\n".join(lines))
     return "\n".join(blocks)
 
 
-def without_nan(value):
-    """JSON has no NaN: null says that a number was not measured."""
-    if isinstance(value, dict):
-        return {key: without_nan(item) for key, item in value.items()}
-    if isinstance(value, (float, np.floating)):
-        return float(value) if np.isfinite(value) else None
-    return value
-
-
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("hard", help="result file of the experiment with hard contact")
     parser.add_argument("soft", help="result file of the experiment with soft contact")
-    parser.add_argument("--other", nargs="*", default=[], metavar="RESULT.h5",
-                        help="results on meshes of other densities (K5)")
-    parser.add_argument("--unequal", nargs="*", default=[], metavar="RESULT.h5",
-                        help="results on meshes of large or unequal triangles (K10)")
     parser.add_argument("--verdicts", metavar="FILE", help="ledger of claim_regions.py (results/reference/claim-verdicts.json)")
-    parser.add_argument("--out", required=True, metavar="DIR", help="directory of claims.md and claims.json")
+    parser.add_argument("--out", required=True, metavar="DIR", help="directory of claims.md")
     arguments = parser.parse_args(argv)
     hard, soft = Result(arguments.hard), Result(arguments.soft)
-    others, unequal = ([Result(file) for file in files] for files in (arguments.other, arguments.unequal))
-    claims = rows(hard, soft, read_verdicts(arguments.verdicts), others, unequal)
-    write_text(markdown(claims, [hard, soft, *others, *unequal]), arguments.out, "claims.md")
-    write_text(json.dumps([without_nan(asdict(claim)) for claim in claims], indent=2) + "\n", arguments.out, "claims.json")
+    claims = rows(hard, soft, read_verdicts(arguments.verdicts))
+    write_text(markdown(claims, [hard, soft]), arguments.out, "claims.md")
     print(plain(claims))
     return 0
 

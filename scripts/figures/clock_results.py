@@ -120,27 +120,24 @@ def lateness_table(named):
 
 
 def excess_table(named):
-    lines = ["| run | woken over empty, p99 [us] | force over empty, p50 [us] | force over empty, p99 [us] | periods without a tick, a million | of the empty loop | stolen [s] |",
-             "|---|---|---|---|---|---|---|"]
+    rows = []
     for name, clock in named:
         excess, force = clock.quantiles("excess"), clock.quantiles("response_excess")
         miss, floor = (f"{rate:.0f} ({low:.0f} to {high:.0f})" for rate, low, high in map(clock.skipped_per_million, ("servo", "floor")))
-        lines.append(f"| {name} | {micro(excess[0.99])} | {micro(force[0.5])} | {micro(force[0.99])} | {miss} | {floor} | "
-                     f"{clock.attribute('stolen_s'):.2f} |")
-    return lines
+        rows.append([name, micro(excess[0.99]), micro(force[0.5]), micro(force[0.99]), miss, floor, f"{clock.attribute('stolen_s'):.2f}"])
+    return table(["run", "woken over empty, p99 [us]", "force over empty, p50 [us]", "force over empty, p99 [us]", "periods without a tick, a million",
+                  "of the empty loop", "stolen [s]"], rows)[:-1]
 
 
 def role_table(named):
-    lines = ["| run | role | core | turns a second | processor time a turn [us] | share of a core [%] | faults | processor taken away |",
-             "|---|---|---|---|---|---|---|---|"]
+    rows = []
     for name, clock in named:
         for role in clock.roles():
             turns, processor = (clock.attribute(key, role) for key in ("turns", "processor_s"))
             faults = clock.attribute("minor_faults", role) + clock.attribute("major_faults", role)
-            lines.append(f"| {name} | {role} | {clock.attribute('core', role):.0f} | {clock.attribute('rate_hz', role):.1f} | "
-                         f"{1e6 * processor / max(turns, 1):.1f} | {100 * clock.attribute('load', role):.2f} | {faults:.0f} | "
-                         f"{clock.attribute('involuntary_switches', role):.0f} |")
-    return lines
+            rows.append([name, role, f"{clock.attribute('core', role):.0f}", f"{clock.attribute('rate_hz', role):.1f}", f"{1e6 * processor / max(turns, 1):.1f}",
+                         f"{100 * clock.attribute('load', role):.2f}", f"{faults:.0f}", f"{clock.attribute('involuntary_switches', role):.0f}"])
+    return table(["run", "role", "core", "turns a second", "processor time a turn [us]", "share of a core [%]", "faults", "processor taken away"], rows)[:-1]
 
 
 def age_table(named):

@@ -9,12 +9,11 @@ import argparse
 import json
 import math
 import os
-import resource
-import subprocess
 import sys
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
-from program import PROGRAM, settings_words
+from lmdbench_results import run_script
+from program import PROGRAM, printed, settings_words, timed
 
 DEVICES = ["phantom-desktop", "phantom-premium-1.5", "phantom-omni", "phantom-premium-3.0-6dof"]
 FRICTIONS = [
@@ -24,7 +23,7 @@ FRICTIONS = [
 PERIOD_S = 1e-3
 TOLERANCE = 1e-3
 MOST_SECONDS = 30  # of processor time
-WALL_SECONDS = 900  # elapsed; enough for a busy machine
+WALL_SECONDS = 900  # of the clock, so that a machine under load has an answer, too
 
 
 def closed_form(mass, damping):
@@ -35,28 +34,17 @@ def closed_form(mass, damping):
     return damping ** 2 * -math.expm1(-x) / (mass * math.exp(-x) * remainder)
 
 
-def processor_seconds():
-    """Of the searches so far, which does not depend on what else the machine does."""
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-
-
 def search(program, experiment, device, settings):
-    command = [program, "stability", experiment, "--json", "--seconds", str(WALL_SECONDS), "--set", f"/device={device}", *settings]
-    begin = processor_seconds()
-    done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    seconds = processor_seconds() - begin
-    if done.returncode not in (0, 3):  # 3: no answer, the row tells the reason
-        raise SystemExit(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
-    plan = subprocess.run([program, "plan", experiment, "--json", "--set", f"/device={device}", *settings], capture_output=True,
-                          text=True, check=True, stdin=subprocess.DEVNULL)
-    return json.loads(done.stdout)[0], json.loads(plan.stdout)["experiment"]["loop"], seconds
+    words = [experiment, "--json", "--set", f"/device={device}", *settings]
+    found, seconds = timed([program, "stability", *words, "--seconds", str(WALL_SECONDS)], allowed=(0, 3))  # 3: no answer, with its reason in the row
+    return json.loads(found)[0], json.loads(printed([program, "plan", *words]))["experiment"]["loop"], seconds
 
 
-def main():
+def main(argv):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=PROGRAM)
     parser.add_argument("--experiment", default=os.path.join("experiments", "stability", "device.json"))
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(argv)
     wrong = []
     print("| device | mass [kg] | damping [N s/m] | friction | [N] | encoder [um] | largest clean stiffness [N/m] | ends by | tap [mm] "
           "| linear boundary [N/m] | closed form | trials | processor time [s] |")
@@ -81,4 +69,4 @@ def main():
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(run_script(main))

@@ -10,7 +10,6 @@ import functools
 import itertools
 import json
 import os
-import resource
 from pathlib import Path
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
@@ -19,7 +18,7 @@ import numpy as np
 
 import figure_style as style
 from lmdbench_results import Result, run_script
-from program import PROGRAM, printed, settings_words
+from program import PROGRAM, printed, settings_words, timed
 from tables import shown, table_text, write_text
 
 import matplotlib.pyplot as plt
@@ -118,14 +117,6 @@ def prediction_table(runs):
     return table_text(["profile", "age, frames", "method", "error, RMS, N", "predicted", "error, 99 %, N", "predicted"], rows)
 
 
-def processor_seconds(command):
-    """User and system time of a program."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    printed(command)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
 def cost_table(program, experiment, scratch):
     """Processor time of a second of closed loop with 'certified': what COST_FRAMES more frames take, over their seconds."""
     profiles = json.loads(Path(experiment).read_text(encoding="utf-8"))["force"]
@@ -133,9 +124,8 @@ def cost_table(program, experiment, scratch):
     for profile in profiles:
         for command, made in (("record", os.path.splitext(scratch)[0] + ".tum"), ("run", scratch)):
             def take(frames):
-                return processor_seconds([program, command, experiment, "--out", made, "--set", f"/force={json.dumps(profile)}",
-                                          "--set", '/methods=[{"name": "certified", "force_law": "exponential"}]',
-                                          "--set", f"/frames={frames}"])
+                return timed([program, command, experiment, "--out", made, *settings_words({
+                    "/force": profile, "/methods": [{"name": "certified", "force_law": "exponential"}], "/frames": frames})])[1]
             seconds = sorted((take(COST_FRAMES + 1) - take(1)) / (COST_FRAMES / 1000) for _ in range(COST_REPETITIONS))
             rows.append([profile["name"], f"`{command}`", *(f"{1e3 * value:.1f}" for value in (seconds[0], seconds[len(seconds) // 2], seconds[-1]))])
             os.remove(made)

@@ -3,6 +3,7 @@
 """Calls of the program."""
 
 import json
+import resource
 import subprocess
 
 from lmdbench_results import ResultError
@@ -25,6 +26,14 @@ def printed(command, allowed=(0,)):
     if done.returncode not in allowed:
         raise failure(command, done.returncode, done.stderr)
     return done.stdout
+
+
+def timed(command, allowed=(0,)):
+    """What a command prints, and its processor time (user and system) [s], which does not depend on what else the machine does."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    text = printed(command, allowed)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return text, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def answer(command, words=None):

@@ -24,7 +24,7 @@ import figure_style as style
 from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, micro, role_table
 from lmdbench_results import Result, ResultError, run_script
 from program import PROGRAM, failure, printed, settings_words
-from tables import write_text
+from tables import table, write_text
 
 import matplotlib.pyplot as plt
 
@@ -102,15 +102,15 @@ def clock_part(study):
     if not named:
         return []
     style.save(draw_timing(named), study.out, "realtime-timing")
-    searches = [f"| {name} | {clock.attribute('rate_hz', 'search'):.0f} | {clock.attribute('rate_hz', 'tracking'):.0f} |"
-                if "search" in clock.roles() else f"| {name} | one loop: {clock.attribute('rate_hz', 'servo'):.0f} | - |" for name, clock in named]
+    searches = [[name, f"{clock.attribute('rate_hz', 'search'):.0f}", f"{clock.attribute('rate_hz', 'tracking'):.0f}"]
+                if "search" in clock.roles() else [name, f"one loop: {clock.attribute('rate_hz', 'servo'):.0f}", "-"] for name, clock in named]
     refused = sorted({what for _, clock in named for what in clock.refused()})
     return ["## Both bunnies on the clock", "",
             f"{study.seconds:g} s each, two bunnies of 16,298 triangles, the recorded path there and back. Refused by the system: {'; '.join(refused) or 'nothing'}. "
             "What the empty loop is late by, under the same policy on the same core before and after each run, is the machine's own.", "",
             *excess_table(named), "", *answers(named), *lateness_table(named), "", "Rates and loads:", "", *role_table(named), "",
             "The paper: \"the thread can sometimes make only a several loops per second\" (section 5), on an Opteron 275 of 2005. Here:", "",
-            "| run | searches a second | local updates a second |", "|---|---|---|", *searches, "", "Ages:", "", *age_table(
+            *table(["run", "searches a second", "local updates a second"], searches), "Ages:", "", *age_table(
                 [(name, clock) for name, clock in named if "search" in clock.roles()]), ""]
 
 
@@ -119,15 +119,16 @@ LARGEST_EXCESS_S = 20e-6
 
 def answers(named):
     """K8 as the paper meant it, and what `certified` takes in one loop."""
-    lines = ["K8 (the PHANTOM loop takes much less than the other threads and can share a core with tracking): share of one core of servo loop and tracking, which "
-             "shared it, and of the search:", "", "| run | servo [%] | tracking [%] | both [%] | search [%] | servo loop beyond the floor, p99 [us] |", "|---|---|---|---|---|---|"]
+    rows = []
     for name, clock in named:
         loads = {role: 100 * clock.attribute("load", role) for role in clock.roles()}
         excess = micro(clock.quantiles("excess")[0.99])
         if "tracking" in loads:
-            lines.append(f"| {name} | {loads['servo']:.2f} | {loads['tracking']:.2f} | {loads['servo'] + loads['tracking']:.2f} | {loads['search']:.1f} | {excess} |")
+            rows.append([name, *(f"{load:.2f}" for load in (loads["servo"], loads["tracking"], loads["servo"] + loads["tracking"])), f"{loads['search']:.1f}", excess])
         else:
-            lines.append(f"| {name} | {loads['servo']:.2f}, searches included | - | {loads['servo']:.2f} | - | {excess} |")
+            rows.append([name, f"{loads['servo']:.2f}, searches included", "-", f"{loads['servo']:.2f}", "-", excess])
+    lines = ["K8 (the PHANTOM loop takes much less than the other threads and can share a core with tracking): share of one core of servo loop and tracking, which "
+             "shared it, and of the search:", "", *table(["run", "servo [%]", "tracking [%]", "both [%]", "search [%]", "servo loop beyond the floor, p99 [us]"], rows)[:-1]]
     for name, clock in named:
         if "search" in clock.roles():
             continue
@@ -142,10 +143,7 @@ def answers(named):
 
 def free_part(study):
     """K9: local updates as fast as they come, on the core of the servo loop."""
-    lines = ["## Local tracking as fast as it can (K9)", "",
-             "Tracking without a grid, at normal priority on the servo loop's core, as the paper ran it; processor time of a turn is what a core of its own would give.", "",
-             "| run | updates a second | processor time an update [us] | updates a second of processor time | servo loop's share of the core [%] |",
-             "|---|---|---|---|---|"]
+    rows = []
     for scene in SCENES:
         for method in ("original", "improved"):
             settings = {**one(method), **NO_PROBES, "/driver/realtime/seconds": min(study.seconds, 20.0), "/driver/realtime/tracking_rate_hz": 0}
@@ -153,9 +151,11 @@ def free_part(study):
             if not clock:
                 continue
             turns, processor = (clock.attribute(key, "tracking") for key in ("turns", "processor_s"))
-            lines.append(f"| {scene}, {method} | {clock.attribute('rate_hz', 'tracking'):.0f} | {1e6 * processor / turns:.2f} | {turns / processor:.0f} | "
-                         f"{100 * clock.attribute('load', 'servo'):.2f} |")
-    return [*lines, ""]
+            rows.append([f"{scene}, {method}", f"{clock.attribute('rate_hz', 'tracking'):.0f}", f"{1e6 * processor / turns:.2f}", f"{turns / processor:.0f}",
+                         f"{100 * clock.attribute('load', 'servo'):.2f}"])
+    return ["## Local tracking as fast as it can (K9)", "",
+            "Tracking without a grid, at normal priority on the servo loop's core, as the paper ran it; processor time of a turn is what a core of its own would give.", "",
+            *table(["run", "updates a second", "processor time an update [us]", "updates a second of processor time", "servo loop's share of the core [%]"], rows)]
 
 
 def scaled_path(study, speed):
@@ -181,12 +181,7 @@ def scaled_path(study, speed):
 
 def age_part(study):
     """Force with aged sets against the same method's force with a set that was searched at the frame's own pose."""
-    lines = ["## Force error that age causes", "",
-             f"{1e3 * AGE_PATH_M:.0f} mm of the hard path at three mean speeds, there and back for {AGE_SECONDS:g} s; hard profile (F_max 3 N, cutoff 0.75 mm). Error: length of the difference to "
-             "the force of the same method whose set was searched at that very pose, over the frames in contact; so only age counts, not what the method misses.", "",
-             "| mean speed [mm/s] | method | prediction | age of the set, p50 [ms] | since its search, p50 [ms] | error, RMS [N] | median [N] | p99 [N] | largest [N] | share of the RMS force [%] |",
-             "|---|---|---|---|---|---|---|---|---|---|"]
-    points = {}
+    rows, points = [], {}
     for speed in SPEEDS_MM_S:
         path = scaled_path(study, speed)
         common = {"/path/file": path, "/frames": int(1000 * AGE_SECONDS), **NO_PROBES}
@@ -208,10 +203,14 @@ def age_part(study):
                 scale = float(np.sqrt(np.mean(np.sum(true[contact]**2, axis=1))))
                 _, age, search_age = clock.ages_ms()
                 points[method, prediction, speed] = rms
-                lines.append(f"| {speed} | {method} | {prediction} | {np.median(age):.2f} | {np.median(search_age):.2f} | {rms:.3g} | {np.median(error):.3g} | "
-                             f"{np.quantile(error, 0.99):.3g} | {error.max():.3g} | {100 * rms / scale:.2g} |")
+                rows.append([speed, method, prediction, f"{np.median(age):.2f}", f"{np.median(search_age):.2f}",
+                             *(f"{value:.3g}" for value in (rms, np.median(error), np.quantile(error, 0.99), error.max())), f"{100 * rms / scale:.2g}"])
     style.save(draw_age(points), study.out, "realtime")
-    return [*lines, "", "![Force error by speed and method, with and without prediction](realtime.png)", ""]
+    return ["## Force error that age causes", "",
+            f"{1e3 * AGE_PATH_M:.0f} mm of the hard path at three mean speeds, there and back for {AGE_SECONDS:g} s; hard profile (F_max 3 N, cutoff 0.75 mm). Error: length of the difference to "
+            "the force of the same method whose set was searched at that very pose, over the frames in contact; so only age counts, not what the method misses.", "",
+            *table(["mean speed [mm/s]", "method", "prediction", "age of the set, p50 [ms]", "since its search, p50 [ms]", "error, RMS [N]", "median [N]", "p99 [N]",
+                    "largest [N]", "share of the RMS force [%]"], rows), "![Force error by speed and method, with and without prediction](realtime.png)", ""]
 
 
 def draw_age(points):
@@ -314,15 +313,13 @@ def overload_part(study):
     plants = (("nothing", {}), ("a search that sleeps 100 ms", {"search_sleep_s": 0.1}), ("a recorder that stands still 1 s, room for 256 ticks", {"recorder_stall_s": 1.0}),
               ("tracking stopped 0.3 s", {"stopped_role": "tracking", "stop_s": STOPPED_S}), ("search stopped 0.3 s", {"stopped_role": "search", "stop_s": STOPPED_S}),
               ("a neighbour of the same priority, 10 of 50 ms", {"neighbour_busy_s": 0.01}))
-    lines = ["## Overload", "", "`improved` on the hard path for 8 s. Every frame is a tick, a skip that is counted, or a record that is counted as lost.", "",
-             "| planted | ticks | skipped | lost | of frames | grid kept | age of the set, largest [ms] | since its search, largest [ms] |", "|---|---|---|---|---|---|---|---|"]
+    rows = []
 
     def row(name, clock):
         frames = frames_of(clock)
         _, age, search_age = clock.ages_ms()
         whole = frames["ticks"] + frames["skipped"] + frames["lost"] == frames["all"]
-        lines.append(f"| {name} | {frames['ticks']} | {frames['skipped']} | {frames['lost']} | {frames['all']} | {'yes' if kept_grid(clock) and whole else 'NO'} | "
-                     f"{age.max():.1f} | {search_age.max():.1f} |")
+        rows.append([name, *frames.values(), "yes" if kept_grid(clock) and whole else "NO", f"{age.max():.1f}", f"{search_age.max():.1f}"])
 
     for number, (name, plant) in enumerate(plants):
         more = {"/driver/realtime/queue_ticks": 256} if "recorder_stall_s" in plant else {}
@@ -333,12 +330,14 @@ def overload_part(study):
     if stopped:
         row(f"the whole program stopped {STOPPED_S:g} s (SIGSTOP)", stopped)
     disk = study.if_there(lambda _: full_disk(study, settings), "overload-full-disk")
-    if disk is None and os.geteuid() == 0:
-        return [*lines, ""]
-    if disk is None:
-        return [*lines, "", "A full disk was not tried: it takes root to make one.", ""]
-    return [*lines, "", f"A disk that is full before the end: exit code {disk['exit']}, {disk['frames']} frames in the part file, result file {'there' if disk['result'] else 'not there'}: "
-            f"\"{' '.join(disk['error'])}\"", ""]
+    lines = ["## Overload", "", "`improved` on the hard path for 8 s. Every frame is a tick, a skip that is counted, or a record that is counted as lost.", "",
+             *table(["planted", "ticks", "skipped", "lost", "of frames", "grid kept", "age of the set, largest [ms]", "since its search, largest [ms]"], rows)]
+    if disk:
+        lines += [f"A disk that is full before the end: exit code {disk['exit']}, {disk['frames']} frames in the part file, result file "
+                  f"{'there' if disk['result'] else 'not there'}: \"{' '.join(disk['error'])}\"", ""]
+    elif os.geteuid() != 0:
+        lines += ["A full disk was not tried: it takes root to make one.", ""]
+    return lines
 
 
 def growth(position):

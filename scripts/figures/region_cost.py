@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Regions of the claims on cost: K5 to K9. Counters decide where they can. A ratio of times has an interval: the bootstrap
+"""Regions of the claims on cost: K5 to K9; their rules stand in claim_rules.py. Counters decide where they can. A ratio of times has an interval: the bootstrap
 over searches or blocks of frames, widened to what the single repetitions say, so that it spans the machine's moods too."""
 
 import math
@@ -10,43 +10,35 @@ import numpy as np
 from intervals import bootstrap
 from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, joined, mean_edges, mesh, of_repetitions, partner, span, triangles,
                           usable)
-from tables import interval, shown, table
+from tables import interval, shown
 
 
-def options_text(options):
-    return f"visibility {options['visibility']}, {options['reduction']} reduction, leaf cones {options.get('leaf_cones', 'one-ring')}"
+def size_columns(point):
+    return {"cutoff [% of diagonal]": f"{100 * cutoff_share(point):g}", "[mean edges]": mean_edges(point)}
 
 
-def k5(sweep):
-    rows, cells, counts = [], {}, {}
+def k5(found, sweep):
+    counts, growing = {}, []
     for point in usable(sweep.points):
         options = point.experiment["methods"][0]
-        if not point.series.startswith("improved") or options.get("plain_cache"):
+        # A path may come no nearer than the cutoff.
+        if not point.series.startswith("improved") or options.get("plain_cache") or not point.number("seconds_in_contact") > 0:
             continue
-        candidates, kept = point.number("candidates"), point.number("kept")
-        ratio = candidates / kept if kept else math.nan
-        largest = point.number("reduction_ratio_maximum")
-        if not point.number("seconds_in_contact") > 0:
-            continue  # the path stays beyond the cutoff
-        cell = HOLDS if 10 <= largest <= 40 else FAILS
-        cells[f"{options_text(options)} | {mesh(point)}, cutoff {100 * cutoff_share(point):g} %"] = cell
+        candidates, kept, largest = (point.number(name) for name in ("candidates", "kept", "reduction_ratio_maximum"))
         choice = (options["visibility"], options["reduction"], options.get("leaf_cones", "one-ring"))
         counts.setdefault((mesh(point), cutoff_share(point)), {})[choice] = candidates, kept
-        rows.append([mesh(point), f"{100 * cutoff_share(point):g}", mean_edges(point), *choice, shown(candidates), shown(kept), shown(ratio),
-                     shown(largest), shown(100 * point.number("recall")), cell])
-    text = ["Rule: the largest ratio of candidates to LMDs that the first reduction keeps lies between 10 and 40. Counts, the same in every "
-            "run: no interval. The ratio over all searches is sum over sum.", ""]
-    text += table(["meshes", "cutoff [% of diagonal]", "[mean edges]", "visibility", "reduction", "leaf cones", "candidates", "kept",
-                   "ratio over all", "largest", "recall [%]", "K5"], rows)
-    growing = []
+        cell = HOLDS if 10 <= largest <= 40 else FAILS
+        found.add({"meshes": mesh(point), **size_columns(point), **dict(zip(("visibility", "reduction", "leaf cones"), choice)),
+                   "candidates": shown(candidates), "kept": shown(kept), "ratio over all": shown(candidates / kept if kept else math.nan),
+                   "largest": shown(largest), "recall [%]": shown(100 * point.number("recall")), "K5": cell},
+                  f"visibility {choice[0]}, {choice[1]} reduction, leaf cones {choice[2]} | {mesh(point)}, cutoff {100 * cutoff_share(point):g} %", cell)
     for (share,), points in groups(sweep.of(series="improved"), cutoff_share).items():
         by_mesh = {mesh(p): p.number("candidates") / p.number("kept") for p in points if p.number("kept")}
         values = list(by_mesh.values())
-        if not values:
-            continue
-        growing.append(f"cutoff {100 * share:g} %: " + ", ".join(f"{name} {shown(value)}" for name, value in by_mesh.items())
-                       + (" (grows)" if values == sorted(values) else " (does not grow)"))
-    return text + ["Ratio over all searches with density: " + "; ".join(growing) + ".", ""] + why_k5(counts), cells
+        if values:
+            growing.append(f"cutoff {100 * share:g} %: " + ", ".join(f"{name} {shown(value)}" for name, value in by_mesh.items())
+                           + (" (grows)" if values == sorted(values) else " (does not grow)"))
+    return ["Ratio over all searches with density: " + "; ".join(growing) + ".", "", *why_k5(counts)]
 
 
 def why_k5(counts):
@@ -68,18 +60,16 @@ def why_k5(counts):
                         for name, found in changes.items()) + ".", ""]
 
 
-class Searches:
-    """Times of a point's searches in contact, (R, S) [s], the warm-up left out."""
+def timed(point, name):
+    """(R, N) samples of a time [s], the warm-up left out."""
+    times = np.atleast_2d(point.sweep.samples(point, name))
+    return times[1 if len(times) > 1 else 0:]
 
-    def __init__(self, point):
-        counts = point.sweep.samples(point, "counts").astype(bool)
-        busy = counts[point.sweep.samples(point, "global_frame").astype(int)]
-        self.search, self.reduction = (self._measured(point, name, busy) for name in ("global_search_time", "first_reduction_time"))
 
-    @staticmethod
-    def _measured(point, name, busy):
-        times = np.atleast_2d(point.sweep.samples(point, name))
-        return np.nan_to_num(times[1 if len(times) > 1 else 0:][:, busy])
+def searches(point):
+    """Times of a point's searches in contact and of their first reductions, (R, S) [s]."""
+    busy = point.sweep.samples(point, "counts").astype(bool)[point.sweep.samples(point, "global_frame").astype(int)]
+    return [np.nan_to_num(timed(point, name)[:, busy]) for name in ("global_search_time", "first_reduction_time")]
 
 
 def time_interval(columns, statistic):
@@ -91,36 +81,31 @@ def time_interval(columns, statistic):
     return statistic(*middle), (min(least, low), max(most, high))
 
 
-def k6(sweep):
-    rows, cells, measured = [], {}, []
+def k6(found, sweep):
+    measured = []
     originals = {(mesh(p), cutoff_share(p)): p for p in usable(sweep.of(series="original"))}
     for point in usable(sweep.of(series="improved") + sweep.of(series="improved-plain-cache")):
         one = originals.get((mesh(point), cutoff_share(point)))
         if one is None:
             continue
-        a, b = Searches(one), Searches(point)
-        if not a.search.size or not b.search.size:
+        (before, _), (search, reduction) = searches(one), searches(point)
+        if not before.size or not search.size:
             continue
         nodes, leaves = (point.counter(name) / one.counter(name) for name in ("node_pairs", "leaf_pairs"))
-        base = time_interval((b.search, a.search), lambda new, old: np.median(new) / np.median(old))
-        share = time_interval((b.reduction, b.search), lambda reduction, search: np.quantile(reduction / search, 0.99))
-        total = time_interval((b.search, b.reduction, a.search), lambda new, more, old: np.median(new + more) / np.median(old))
+        base = time_interval((search, before), lambda new, old: np.median(new) / np.median(old))
+        share = time_interval((reduction, search), lambda more, new: np.quantile(more / new, 0.99))
+        total = time_interval((search, reduction, before), lambda new, more, old: np.median(new + more) / np.median(old))
         cell = all_of(decide(*base[1], at_least=0.8, at_most=1.25), decide(*share[1], at_least=0.8), decide(*total[1], at_least=1.5, at_most=2.5))
-        cache = "plain" if point.experiment["methods"][0].get("plain_cache") else "ours"
-        cells[f"{mesh(point)}{', plain hash map as cache' if cache == 'plain' else ''} | cutoff {100 * cutoff_share(point):g} %"] = cell
+        plain = point.experiment["methods"][0].get("plain_cache")
         distances = point.counter("triangle_distances") / point.counter("leaf_pairs")
-        middle = float(np.median(b.reduction / b.search))
+        middle = float(np.median(reduction / search))
         measured.append((nodes, leaves, base[0], distances, middle, total[0]))
-        rows.append([mesh(point), f"{100 * cutoff_share(point):g}", mean_edges(point), cache, shown(nodes), shown(leaves), shown(distances),
-                     shown(1e3 * float(np.median(a.search))), interval(*base), shown(middle), interval(*share), interval(*total), cell])
-    text = ["Rule: base ratio 0.8 to 1.25; the reduction can take as long as the search: 99th percentile of reduction / search at least 0.8; "
-            "total ratio 1.5 to 2.5; all by the ends of their intervals (bootstrap over the searches in contact, widened to the single "
-            "repetitions; points interleaved in random order). The counters beside them are the same in every run. Cache: ours is an "
-            "open-addressing table, plain a std::unordered_map.", ""]
-    text += table(["meshes", "cutoff [% of diagonal]", "[mean edges]", "cache", "node pairs, improved / original", "leaf pairs, improved / original",
-                   "triangle distances, all, / leaf pairs", "original's search, median [ms]", "base ratio", "reduction / search, median",
-                   "99th percentile", "total ratio", "K6"], rows)
-    return text + why_k6(measured), cells
+        found.add({"meshes": mesh(point), **size_columns(point), "cache": "plain" if plain else "ours", "node pairs, improved / original": shown(nodes),
+                   "leaf pairs, improved / original": shown(leaves), "triangle distances, all, / leaf pairs": shown(distances),
+                   "original's search, median [ms]": shown(1e3 * float(np.median(before))), "base ratio": interval(*base),
+                   "reduction / search, median": shown(middle), "99th percentile": interval(*share), "total ratio": interval(*total), "K6": cell},
+                  f"{mesh(point)}{', plain hash map as cache' if plain else ''} | cutoff {100 * cutoff_share(point):g} %", cell)
+    return why_k6(measured)
 
 
 def why_k6(measured):
@@ -138,9 +123,7 @@ def why_k6(measured):
 
 def updates(point):
     """Times of local updates [s] by repetition and which frames count and carry LMDs."""
-    times = np.atleast_2d(point.sweep.samples(point, "local_update_time"))
-    counts = point.sweep.samples(point, "counts").astype(bool)
-    return times[1 if len(times) > 1 else 0:], counts & (point.sweep.samples(point, "tracked_count") > 0)
+    return timed(point, "local_update_time"), point.sweep.samples(point, "counts").astype(bool) & (point.sweep.samples(point, "tracked_count") > 0)
 
 
 def update_ratio(one, other):
@@ -157,36 +140,31 @@ def update_ratio(one, other):
     return statistic(*middle), (min(least, low), max(most, high))
 
 
-def k7(sweep):
-    rows, ratios, cells, times_per_lmd = [], {}, {}, {}
+def k7(found, sweep):
+    ratios, times_per_lmd = {}, {}
     for one in usable(sweep.points):
         other = partner(one, sweep) if one.series.startswith("original") and "points" not in one.series else None
-        found = update_ratio(one, other) if other is not None else None
-        if found is None:
+        ratio = update_ratio(one, other) if other is not None else None
+        if ratio is None:
             continue
-        ratios[(one.scene, one.period, cutoff_share(one))] = found[1]
-        per_lmd = [1e9 * p.number("local_update_per_tracked_s") for p in (one, other)]
-        times_per_lmd.setdefault(one.scene, []).append(per_lmd)
-        rows.append([one.scene, one.period, f"{100 * cutoff_share(one):g}", mean_edges(one), interval(*found),
-                     shown(other.number("local_update_filled_mean_s") / one.number("local_update_filled_mean_s")), shown(per_lmd[1] / per_lmd[0]),
-                     *(shown(1e6 * p.number("local_update_filled_median_s")) for p in (one, other)), *(shown(x) for x in per_lmd),
-                     *(shown(1e9 * p.number("local_update_empty_median_s")) for p in (one, other)),
-                     *(shown(p.number("frames_empty")) for p in (one, other))])
+        ratios[(one.scene, one.period, cutoff_share(one))] = ratio[1]
+        both = {"original": one, "improved": other}
+        per_lmd = {name: 1e9 * p.number("local_update_per_tracked_s") for name, p in both.items()}
+        times_per_lmd.setdefault(one.scene, []).append(tuple(per_lmd.values()))
+        found.add({"scene": one.scene, "search every [frames]": one.period, **size_columns(one), "improved / original, median": interval(*ratio),
+                   "mean": shown(other.number("local_update_filled_mean_s") / one.number("local_update_filled_mean_s")),
+                   "per LMD carried": shown(per_lmd["improved"] / per_lmd["original"]),
+                   **{f"{name}, median [us]": shown(1e6 * p.number("local_update_filled_median_s")) for name, p in both.items()},
+                   **{f"{name} per LMD [ns]": shown(time) for name, time in per_lmd.items()},
+                   **{f"{name}, empty set [ns]": shown(1e9 * p.number("local_update_empty_median_s")) for name, p in both.items()},
+                   **{f"{name}, frames without LMD": shown(p.number("frames_empty")) for name, p in both.items()}})
     for (scene, period, share), (low, high) in ratios.items():
         soft = ratios.get((scene.replace("hard", "soft"), period, share if share != 0.005 else 0.05))
-        if "hard" not in scene or soft is None:
-            continue
-        less = HOLDS if soft[1] < 0.9 * low else FAILS if soft[0] > high else OPEN
-        cells[f"cutoff {100 * share:g} % | a search every {period} frames"] = all_of(
-            decide(low, high, at_least=2.0), decide(*soft, at_least=1.0), less)
-    text = ["Rule: the improved update is at least twice the original's when hard, slower when soft, and less so when soft by a tenth. Only frames "
-            "whose set is not empty (an empty set costs no more than the clock); per LMD: sum of times over sum of LMDs carried. Reading the "
-            f"clock costs {1e9 * sweep.clock_overhead:.0f} ns of each update. 95 % intervals: bootstrap over blocks of frames, widened to the single "
-            "repetitions.", ""]
-    text += table(["scene", "search every [frames]", "cutoff [% of diagonal]", "[mean edges]", "improved / original, median", "mean", "per LMD carried",
-                   "original, median [us]", "improved, median [us]", "original per LMD [ns]", "improved per LMD [ns]", "original, empty set [ns]",
-                   "improved, empty set [ns]", "original, frames without LMD", "improved, frames without LMD"], rows)
-    return text + why_k7(times_per_lmd), cells
+        if "hard" in scene and soft is not None:
+            less = HOLDS if soft[1] < 0.9 * low else FAILS if soft[0] > high else OPEN
+            found.cells[f"cutoff {100 * share:g} % | a search every {period} frames"] = all_of(
+                decide(low, high, at_least=2.0), decide(*soft, at_least=1.0), less)
+    return why_k7(times_per_lmd)
 
 
 def why_k7(times_per_lmd):
@@ -204,68 +182,52 @@ def why_k7(times_per_lmd):
             "receives a reduced set. A median sees none of those updates, the mean and the time per LMD do.", ""]
 
 
+def k8(found, roles):
+    """Of the JSON of `lmdbench-study roles`, a row a repetition."""
+    for label in dict.fromkeys(row["label"] for row in roles["rows"]):
+        runs = [row for row in roles["rows"] if row["label"] == label]
+        has_parts = all("force_share" in run for run in runs)
+        ratios = against_the_others(runs, "device_share")
+        method, _, profile = label.partition("-")
+        name, cell = f"{method} | {profile}", ""
+        if method in ("original", "improved"):
+            one_core = decide(*of_repetitions([run["together"]["p99_s"] for run in runs]), at_most=1e-3)
+            need_less = lambda ratios: all_of(*(decide(*of_repetitions(values), at_most=0.5) for values in ratios), one_core)  # noqa: E731
+            found.cells[name] = cell = need_less(ratios)
+            if has_parts:
+                found.cells[f"{method}, the simulated device's motion left out | {profile}"] = need_less(against_the_others(runs, "force_share"))
+        middle = lambda share: shown(1e3 * float(np.median([run[share] for run in runs])))  # noqa: E731
+        times = {f"{words}, {kind}": shown(1e6 * float(np.median([run[stage][key] for run in runs])))
+                 for words, stage in (("device loop", "device"), ("device and local", "together"))
+                 for kind, key in (("median [us]", "median_s"), ("99 %", "p99_s"), ("largest", "maximum_s"))}
+        found.add({"method and profile": label, "repetitions": len(runs), "device loop [ms/s]": middle("device_share"),
+                   "of it sum and clip of the forces": middle("force_share") if has_parts else "-", "local tracking [ms/s]": middle("local_share"),
+                   "global thread [ms/s]": middle("global_share"),
+                   **{f"device / {other}": interval(float(np.median(values)), (min(values), max(values))) for other, values in zip(("local", "global"), ratios)},
+                   **times, "above 1 ms, worst repetition": max(run["together_above_1ms"] for run in runs), "K8": cell})
+
+
 def against_the_others(runs, share):
     """That share of the processor over those of local tracking and of the global thread, each a number a run."""
     return [[run[share] / run[other] if run[other] > 0 else math.inf for run in runs] for other in ("local_share", "global_share")]
 
 
-def k8(roles):
-    """Of the JSON of `lmdbench-study roles`, a row a repetition."""
-    rows, cells = [], {}
-    labels = list(dict.fromkeys(row["label"] for row in roles["rows"]))
-    for label in labels:
-        runs = [row for row in roles["rows"] if row["label"] == label]
-        has_parts = all("force_share" in run for run in runs)
-        ratios = against_the_others(runs, "device_share")
-        late = [run["together"]["p99_s"] for run in runs]
-        if label.startswith(("original", "improved")):
-            method, _, profile = label.partition("-")
-            one_core = decide(*of_repetitions(late), at_most=1e-3)
-            need_less = lambda found: all_of(*(decide(*of_repetitions(values), at_most=0.5) for values in found), one_core)  # noqa: E731
-            cells[f"{method} | {profile}"] = need_less(ratios)
-            if has_parts:
-                cells[f"{method}, the simulated device's motion left out | {profile}"] = need_less(against_the_others(runs, "force_share"))
-        middle = lambda name: shown(1e3 * float(np.median([run[name] for run in runs])))  # noqa: E731
-        stage = lambda name, key: shown(1e6 * float(np.median([run[name][key] for run in runs])))  # noqa: E731
-        rows.append([label, len(runs), middle("device_share"), middle("force_share") if has_parts else "-", middle("local_share"), middle("global_share"),
-                     *(interval(float(np.median(values)), (min(values), max(values))) for values in ratios),
-                     *(stage("device", key) for key in ("median_s", "p99_s", "maximum_s")),
-                     *(stage("together", key) for key in ("median_s", "p99_s", "maximum_s")),
-                     max(run["together_above_1ms"] for run in runs), cells.get(label.replace("-", " | ", 1), "")])
-    text = ["Rule: the device loop (sum of the forces, clip, motion of the simulated device) takes at most half the processor time of local "
-            "tracking and at most half that of the global thread, and 99 % of the frames of device loop and local tracking together stay "
-            "under 1 ms, so that one core serves both; intervals: lowest and highest repetition. Closed loop of "
-            f"`experiments/{roles['experiment']}.json`, a search every 20 frames. A method that searches in every frame has no global thread. A real "
-            "device is moved by a hand: the motion that the closed loop simulates stands in the device loop, and is also left out as settings of their own.", ""]
-    return text + table(["method and profile", "repetitions", "device loop [ms/s]", "of it sum and clip of the forces", "local tracking [ms/s]", "global thread [ms/s]",
-                         "device / local", "device / global", "device loop, median [us]", "99 %", "largest", "device and local, median [us]",
-                         "99 %", "largest", "above 1 ms, worst repetition", "K8"], rows), cells
-
-
-def k9(*sweeps):
-    rows, cells = [], {}
-    for sweep in sweeps:
-        for point in usable(sweep.points):
-            if point.method != "improved" or not point.series == "improved" or not math.isfinite(point.number("local_update_p99_s")):
-                continue
-            experiment = point.experiment
-            smallest = min(triangles(body["mesh"]) for body in (experiment["moving"], *experiment["fixed"]))
-            if not smallest > 10_000:
-                continue
-            times, _ = updates(point)
-            counts = point.sweep.samples(point, "counts").astype(bool)
-            singles = [float(np.quantile(run[counts], 0.99)) for run in times]
-            value = float(np.quantile(np.median(times, axis=0)[counts], 0.99))
-            least, most = of_repetitions(singles)
-            limits = (min(least, value), max(most, value))
-            cell = decide(*limits, at_most=1e-3)
-            share = f"cutoff {100 * cutoff_share(point):g} %" if math.isfinite(cutoff_share(point)) else "own cutoff"
-            cells[f"{point.scene}, {mesh(point)}, {share} | a search every {point.period} frames"] = cell
-            rows.append([point.scene, mesh(point), f"{smallest:.0f}", share.replace("cutoff ", ""), point.period,
-                         shown(1e6 * point.number("local_update_median_s")), interval(1e6 * value, tuple(1e6 * x for x in limits)),
-                         shown(1e6 * point.number("local_update_maximum_s")), shown(1e-3 / value),
-                         shown(100 * point.number("recall")), shown(100 * point.force_error), cell])
-    text = ["Rule: the 99th percentile of the improved local update is under 1 ms on meshes of more than 10,000 triangles each, in every "
-            "repetition (interval: lowest and highest one).", ""]
-    return text + table(["scene", "moving mesh", "smallest mesh [triangles]", "cutoff", "search every [frames]", "local update, median [us]", "99th percentile [us]",
-                         "largest [us]", "1 kHz, times", "recall [%]", "force error, RMS [% of F_max]", "K9"], rows), cells
+def k9(found, *sweeps):
+    for point in (point for sweep in sweeps for point in usable(sweep.of(series="improved"))):
+        experiment = point.experiment
+        smallest = min(triangles(body["mesh"]) for body in (experiment["moving"], *experiment["fixed"]))
+        if point.method != "improved" or not math.isfinite(point.number("local_update_p99_s")) or not smallest > 10_000:
+            continue
+        times, _ = updates(point)
+        counts = point.sweep.samples(point, "counts").astype(bool)
+        value = float(np.quantile(np.median(times, axis=0)[counts], 0.99))
+        least, most = of_repetitions([float(np.quantile(run[counts], 0.99)) for run in times])
+        limits = (min(least, value), max(most, value))
+        cell = decide(*limits, at_most=1e-3)
+        share = f"{100 * cutoff_share(point):g} %" if math.isfinite(cutoff_share(point)) else "own cutoff"
+        found.add({"scene": point.scene, "moving mesh": mesh(point), "smallest mesh [triangles]": f"{smallest:.0f}", "cutoff": share,
+                   "search every [frames]": point.period, "local update, median [us]": shown(1e6 * point.number("local_update_median_s")),
+                   "99th percentile [us]": interval(1e6 * value, [1e6 * x for x in limits]),
+                   "largest [us]": shown(1e6 * point.number("local_update_maximum_s")), "1 kHz, times": shown(1e-3 / value),
+                   "recall [%]": shown(100 * point.number("recall")), "force error, RMS [% of F_max]": shown(100 * point.force_error), "K9": cell},
+                  f"{point.scene}, {mesh(point)}, {'' if share == 'own cutoff' else 'cutoff '}{share} | a search every {point.period} frames", cell)

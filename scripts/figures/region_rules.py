@@ -10,14 +10,29 @@ from pathlib import Path
 import numpy as np
 
 from intervals import Rate
-from tables import shown
+from tables import shown, table
 
-HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"  # of a setting
-REPRODUCED, NOT_REPRODUCED, HOLDS_WHERE = "reproduced", "not reproduced", "holds where"  # of a claim, or OPEN
-LEAST_REPETITIONS = 2  # fewer show no spread
-MEAN_EDGE_DIAGONAL = 0.0128  # of bunny-16k, by `lmdbench mesh info bunny-16k`
+HOLDS, FAILS, OPEN = "holds", "does not hold", "undecided"  # a setting
+REPRODUCED, NOT_REPRODUCED, HOLDS_WHERE, NOT_MEASURED = "reproduced", "not reproduced", "holds where", "not measured"  # a claim, or OPEN
+LEAST_REPETITIONS = 2  # one does not tell how far the next would lie from it
+MEAN_EDGE_DIAGONAL = 0.0128  # of bunny-16k: `lmdbench mesh info bunny-16k`, mean edge / diagonal
 MANIFEST = Path(__file__).resolve().parents[2] / "meshes" / "manifest.json"
-BLOCK = 200  # frames resampled together: neighbours are alike
+BLOCK = 200  # frames that are resampled together: neighbours resemble each other
+
+
+class Found:
+    """What a claim's rule finds: rows of a table, {column: value}, and {setting in words: HOLDS, FAILS or OPEN}."""
+
+    def __init__(self):
+        self.rows, self.cells = [], {}
+
+    def add(self, row, setting=None, cell=""):
+        self.rows.append(row)
+        if setting is not None:
+            self.cells[setting] = cell
+
+    def table(self):
+        return table(list(self.rows[0]), [row.values() for row in self.rows]) if self.rows else []
 
 
 def span(values):
@@ -123,6 +138,28 @@ def groups(points, *keys):
     for point in usable(points):
         found.setdefault(tuple(key(point) for key in keys), []).append(point)
     return found
+
+
+class Setting:
+    """The paths of a series with its search period, G5 tolerance and cutoff."""
+
+    def __init__(self, series, period, angle, share, points):
+        self.series, self.period, self.share, self.points = series, period, share, points
+        self.angle = "-" if angle is None else f"{angle:.0f}"
+        self.columns = {"series": series, "search every [frames]": period, "G5 [deg]": self.angle, "cutoff [mean edges]": in_edges(share), "paths": len(points)}
+        wider = ", Fig. 5 (a) with edge neighbours" if "edge-neighbours" in series else ""
+        self.words = f"cutoff {in_edges(share)} mean edges, G5 {self.angle} deg{wider} | {schedule(period)}"
+
+
+def settings(sweep):
+    """[(setting, the points of `improved` under the same schedule and cutoff, or none)]; only one of `original` is held against them."""
+    controls = groups(sweep.of(series="improved") + sweep.of(series="improved-cutoff"), lambda p: p.period, cutoff_share)
+    found = [Setting(*key, points) for key, points in groups(sweep.points, lambda p: p.series, lambda p: p.period, tolerance, cutoff_share).items()]
+    return [(one, controls.get((one.period, one.share), []) if one.series.startswith("original") else []) for one in found]
+
+
+def schedule(period):
+    return "a search in every frame" if period == 1 else f"a search every {period} frames"
 
 
 def blocks(*columns):

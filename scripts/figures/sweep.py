@@ -295,7 +295,7 @@ def markdown(sweep, picture):
         "`certified` with vector instructions, `original` and `improved` scalar.", "",
         f"Truth in every frame is the set of `certified`, compared with `exhaustive` in {checked} frames of the problems "
         f"({wrong or 'none'} differ). Forces are compared under each method's own law. Points take turns in random order; a frame counts "
-        f"with the median of its repetitions; reading the clock costs {1e9 * sweep.clock_overhead:.0f} ns of every time.{load(sweep)}", ""]
+        f"with the median of its repetitions; reading the clock costs {sweep.clock_overhead_ns:.0f} ns of every time.{load(sweep)}", ""]
     if picture:
         text += [f"![Error against run time]({picture})", ""]
     text += ["## Which method at which budget", "",

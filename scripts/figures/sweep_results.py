@@ -107,7 +107,7 @@ class Sweep:
         except OSError as error:
             raise ResultError(f"{self.file}: cannot be read: {error} {remedy}")
         self.name, self.title = attributes["name"], attributes["title"]
-        self.clock_overhead = float(attributes["clock_overhead_s"])
+        self.clock_overhead_ns = 1e9 * float(attributes["clock_overhead_s"])
         self.points = [Point(self, index) for index in range(len(self.texts["scene"]))]
 
     @property

@@ -218,12 +218,12 @@ TEST(PartOf, IsWhatIsNoFartherOutsideThanTheReach) {
   for (int i = 0; i < 2000; ++i) {
     const ConvexPolygon polygon = random_convex_polygon(random, 3 + static_cast<int>(random() % 8));
     const Vec2 p = random_point(random, 3.0), q = random_point(random, 3.0);
-    const double reach = i % 2 == 0 ? 0.0 : 0.2 * uniform(random);
-    const SegmentPart part = polygon.part_of(p, q, reach);
+    const double within = i % 2 == 0 ? 0.0 : 0.2 * uniform(random);
+    const SegmentPart part = polygon.part_of(p, q, within);
     const bool is_some = part.end > part.begin;
     (is_some ? parts : none) += 1;
     for (int k = 0; k <= 50; ++k) {
-      const double s = k / 50.0, height = height_over_sides(polygon, p + s * (q - p)) - reach;
+      const double s = k / 50.0, height = height_over_sides(polygon, p + s * (q - p)) - within;
       if (height < -1e-12) {
         EXPECT_TRUE(is_some && part.begin <= s && s <= part.end)
             << s << " of " << part.begin << " " << part.end;
@@ -235,7 +235,7 @@ TEST(PartOf, IsWhatIsNoFartherOutsideThanTheReach) {
     EXPECT_GE(part.begin, 0.0);
     EXPECT_LE(part.end, 1.0);
     for (const double s : {part.begin, part.end})
-      EXPECT_LE(height_over_sides(polygon, p + s * (q - p)), reach + 1e-12);
+      EXPECT_LE(height_over_sides(polygon, p + s * (q - p)), within + 1e-12);
   }
   EXPECT_GT(parts, 500);
   EXPECT_GT(none, 300);
@@ -243,7 +243,7 @@ TEST(PartOf, IsWhatIsNoFartherOutsideThanTheReach) {
 
 TEST(PartOf, ASegmentAlongASideIsInside) {
   const ConvexPolygon square({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-  const auto part_at = [&](double y, double reach) { return square.part_of({-1.0, y}, {3.0, y}, reach); };
+  const auto part_at = [&](double y, double within) { return square.part_of({-1.0, y}, {3.0, y}, within); };
   for (const double y : {0.0, 0.5, 1.0}) {
     const SegmentPart part = part_at(y, 0.0);
     EXPECT_EQ(part.begin, 0.25) << y;
@@ -272,9 +272,9 @@ TEST(Holds, IsClosedAtTheReachOfEverySide) {
   for (int i = 0; i < 500; ++i) {
     const ConvexPolygon polygon = random_convex_polygon(random, 7);
     const Vec2 x = random_point(random, 3.0);
-    const double reach = 0.3 * uniform(random), height = height_over_sides(polygon, x);
-    if (std::abs(height - reach) > 1e-12) {
-      EXPECT_EQ(polygon.holds(x, reach), height < reach);
+    const double within = 0.3 * uniform(random), height = height_over_sides(polygon, x);
+    if (std::abs(height - within) > 1e-12) {
+      EXPECT_EQ(polygon.holds(x, within), height < within);
     }
   }
 }
@@ -289,28 +289,28 @@ TEST(Touches, NeverMissesADistanceWithinReach) {
                                  : random_convex_polygon(random, 5);
     const Vec2 away = random_point(random, 3.0);
     for (Vec2& x : b.corners) x += away;
-    const double reach = i % 2 == 0 ? 0.0 : 0.3 * uniform(random);
-    const bool touches = a.touches(b, reach);
-    EXPECT_EQ(touches, b.touches(a, reach));
+    const double within = i % 2 == 0 ? 0.0 : 0.3 * uniform(random);
+    const bool touches = a.touches(b, within);
+    EXPECT_EQ(touches, b.touches(a, within));
     const auto meets = [&] {
       return std::ranges::any_of(a.corners,
                                  [&](const Vec2& x) { return b.corners.size() > 2 && b.holds(x, 0.0); }) ||
              std::ranges::any_of(b.corners, [&](const Vec2& x) { return a.holds(x, 0.0); });
     };
     const double distance = meets() ? 0.0 : distance_between(a, b);
-    if (distance < reach - 1e-12 || distance == 0.0) {
+    if (distance < within - 1e-12 || distance == 0.0) {
       EXPECT_TRUE(touches) << i;
       ++near;
     }
-    // With reach 0 the test is exact.
-    if (reach == 0.0 && distance > 1e-9) {
+    // With within 0 the test is exact.
+    if (within == 0.0 && distance > 1e-9) {
       EXPECT_FALSE(touches) << i;
       ++apart;
     }
   }
   EXPECT_GT(near, 500);
   EXPECT_GT(apart, 300);
-  // Squares side by side, no farther apart than the reach.
+  // Squares side by side, no farther apart than the within.
   const ConvexPolygon square({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), next({{1.5, 0}, {2, 0}, {2, 1}, {1.5, 1}});
   EXPECT_TRUE(square.touches(next, 0.5));
   EXPECT_FALSE(square.touches(next, 0.49));

@@ -52,15 +52,15 @@ TEST(BoxGrid, ListsEveryBoxThatComesWithinReachOfABoxOnce) {
       query.add(k % 2 == 0 ? 2.0 * random_point(random) - Vec2(0.5, 0.5)
                            : boxes[random() % boxes.size()].high);
       if (k % 3 == 0) query.add(query.low + random_point(random));
-      const double reach = k % 4 == 0 ? 0.0 : 0.2 * uniform(random);
+      const double within = k % 4 == 0 ? 0.0 : 0.2 * uniform(random);
       std::vector<int> visits(boxes.size(), 0);
       const auto note = [&](std::int32_t index) {
         ++visits[static_cast<std::size_t>(index)];
         return true;
       };
-      EXPECT_TRUE(grid.for_each_near(query, reach, note));
+      EXPECT_TRUE(grid.for_each_near(query, within, note));
       for (std::size_t b = 0; b < boxes.size(); ++b) {
-        const bool is_near = boxes[b].comes_within(query, reach);
+        const bool is_near = boxes[b].comes_within(query, within);
         EXPECT_EQ(visits[b], is_near ? 1 : 0) << "habit " << i % 7;
         near += is_near ? 1 : 0;
         ++all;
@@ -78,11 +78,11 @@ TEST(BoxGrid, StopsWhereItIsTold) {
   EXPECT_EQ(visits, 3);
 }
 
-/// Whether a segment meets a box enlarged by the reach; clips it by one side after the other.
-bool passes(const Box2& box, const Vec2& a, const Vec2& b, double reach) {
+/// Whether a segment meets a box enlarged by the within; clips it by one side after the other.
+bool passes(const Box2& box, const Vec2& a, const Vec2& b, double within) {
   double begin = 0.0, end = 1.0;
   for (int k = 0; k < 2; ++k) {
-    const double low = box.low[k] - reach - a[k], high = box.high[k] + reach - a[k], d = b[k] - a[k];
+    const double low = box.low[k] - within - a[k], high = box.high[k] + within - a[k], d = b[k] - a[k];
     if (d == 0.0) {
       if (low > 0.0 || high < 0.0) return false;
       continue;
@@ -112,12 +112,12 @@ TEST(BoxGrid, ListsEveryBoxThatASegmentPasses) {
       }
       if (k % 7 == 0) b = a;
       // Callers never ask with less than a few roundings.
-      const double reach = k % 2 == 0 ? 1e-14 : 0.1 * uniform(random);
+      const double within = k % 2 == 0 ? 1e-14 : 0.1 * uniform(random);
       std::vector<bool> is_visited(boxes.size(), false);
-      grid.for_each_near(a, b, reach,
+      grid.for_each_near(a, b, within,
                          [&](std::int32_t index) { is_visited[static_cast<std::size_t>(index)] = true; });
       for (std::size_t j = 0; j < boxes.size(); ++j) {
-        const bool is_near = passes(boxes[j], a, b, reach);
+        const bool is_near = passes(boxes[j], a, b, within);
         if (is_near) {
           EXPECT_TRUE(is_visited[j]) << "habit " << i % 7 << " from " << a.transpose() << " to "
                                      << b.transpose();

@@ -65,9 +65,10 @@ PathSpec spec_of(std::uint64_t seed) {
 
 TEST(FirstReach, TouchesABallAtTheGap) {
   for (const double gap : {1e-5, 1e-3, 0.1}) {
-    const double reach = first_reach(BALLS, Vec3(0.6, 0, 0.8), rotation_of(Vec3(1, 2, 3)), gap);
-    EXPECT_GE(reach, 0.11 + gap - 1e-15);
-    EXPECT_LE(reach, 0.11 + gap * (1.0 + 2.0 * GAP_TOLERANCE));
+    const double centre_distance =
+        first_centre_distance(BALLS, Vec3(0.6, 0, 0.8), rotation_of(Vec3(1, 2, 3)), gap);
+    EXPECT_GE(centre_distance, 0.11 + gap - 1e-15);
+    EXPECT_LE(centre_distance, 0.11 + gap * (1.0 + 2.0 * GAP_TOLERANCE));
   }
 }
 
@@ -75,8 +76,9 @@ TEST(FirstReach, StopsAtTheFirstContactFromOutside) {
   // From this side the moving ball meets the outer fixed ball, not the one at the centre.
   const PathScene scene = ball_scene({{Vec3::Zero(), 0.01}}, Vec3::Zero(), 0.01,
                                      {{Vec3::Zero(), 0.01}, {Vec3(0.1, 0, 0), 0.01}}, Vec3::Zero(), 0.11);
-  EXPECT_NEAR(first_reach(scene, Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 0.121, 2e-6);
-  EXPECT_NEAR(first_reach(scene, -Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 0.021, 2e-6);
+  EXPECT_NEAR(first_centre_distance(scene, Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 0.121, 2e-6);
+  EXPECT_NEAR(first_centre_distance(scene, -Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 0.021,
+              2e-6);
 }
 
 TEST(FirstReach, NeverGetsNearerThanTheGapOnTheWay) {
@@ -89,7 +91,8 @@ TEST(FirstReach, NeverGetsNearerThanTheGapOnTheWay) {
   };
   for (int i = 0; i < 200; ++i) {
     const Eigen::Quaterniond rotation = rotation_of(Vec3(0.1 * i, std::sin(i), 0.3));
-    first_reach(watched, rotation_of(Vec3(0.2, 0.07 * i, 0.11 * i)) * Vec3::UnitX(), rotation, 1e-4);
+    first_centre_distance(watched, rotation_of(Vec3(0.2, 0.07 * i, 0.11 * i)) * Vec3::UnitX(), rotation,
+                          1e-4);
   }
   EXPECT_GE(nearest, 1e-4 * (1.0 - 1e-9));
   EXPECT_LE(nearest, 1e-4 * (1.0 + GAP_TOLERANCE));
@@ -98,7 +101,7 @@ TEST(FirstReach, NeverGetsNearerThanTheGapOnTheWay) {
 TEST(FirstReach, PassesThroughWhereNothingIsMet) {
   const PathScene ring = ball_scene({{Vec3::Zero(), 0.01}}, Vec3::Zero(), 0.01,
                                     {{Vec3(0.1, 0, 0), 0.01}, {Vec3(-0.1, 0, 0), 0.01}}, Vec3::Zero(), 0.11);
-  EXPECT_EQ(first_reach(ring, Vec3::UnitZ(), Eigen::Quaterniond::Identity(), 1e-3), 0.0);
+  EXPECT_EQ(first_centre_distance(ring, Vec3::UnitZ(), Eigen::Quaterniond::Identity(), 1e-3), 0.0);
 }
 
 TEST(WantedGap, StepsMonotonouslyFromPointToPoint) {

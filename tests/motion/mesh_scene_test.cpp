@@ -49,26 +49,26 @@ TEST(MeshScene, ReachIsWhereTheGapIsHadForTheFirstTime) {
   const TriangleMesh plate = make_box(Vec3(0.4, 0.4, 0.01));
   const PathScene scene = mesh_scene(torus, plate);
   PathScene advancing = scene;
-  advancing.reach = nullptr;
+  advancing.centre_distance = nullptr;
   int reached = 0;
   for (int i = 0; i < 25; ++i) {
     const Vec3 direction = rotation_of(Vec3(0.37 * i, 0.11 * i, 0.05 * i)) * Vec3::UnitX();
     const Eigen::Quaterniond rotation = rotation_of(Vec3(0.2 * i, 0.9, -0.3 * i));
     for (const double gap : {1e-2, 1e-4}) {
-      const double reach = first_reach(scene, direction, rotation, gap);
-      const double advanced = first_reach(advancing, direction, rotation, gap);
+      const double centre_distance = first_centre_distance(scene, direction, rotation, gap);
+      const double advanced = first_centre_distance(advancing, direction, rotation, gap);
       const auto distance_at = [&](double s) {
         return scene.distance(
             {scene.fixed_centre_W + s * direction - rotation * scene.moving_centre_M, rotation});
       };
-      reached += reach > 0.0 ? 1 : 0;
-      EXPECT_LE(reach, advanced + GAP_TOLERANCE * gap) << i;
-      if (reach > 0.0) {
-        EXPECT_LE(distance_at(reach), gap * (1.0 + 1.001 * GAP_TOLERANCE)) << i;
-        EXPECT_GE(distance_at(reach), gap * (1.0 - 1e-9)) << i;
+      reached += centre_distance > 0.0 ? 1 : 0;
+      EXPECT_LE(centre_distance, advanced + GAP_TOLERANCE * gap) << i;
+      if (centre_distance > 0.0) {
+        EXPECT_LE(distance_at(centre_distance), gap * (1.0 + 1.001 * GAP_TOLERANCE)) << i;
+        EXPECT_GE(distance_at(centre_distance), gap * (1.0 - 1e-9)) << i;
       }
       for (int k = 1; k <= 20; ++k)
-        EXPECT_GE(distance_at(reach + 0.02 * k * k * gap), gap * (1.0 - 1e-9)) << i << ", " << k;
+        EXPECT_GE(distance_at(centre_distance + 0.02 * k * k * gap), gap * (1.0 - 1e-9)) << i << ", " << k;
     }
   }
   EXPECT_GT(reached, 20);
@@ -77,8 +77,8 @@ TEST(MeshScene, ReachIsWhereTheGapIsHadForTheFirstTime) {
 TEST(MeshScene, WhatIsNeverReachedIsZero) {
   // The ball passes through the hole of a ring along its axis.
   const PathScene scene = mesh_scene(make_sphere(0.1, 2), make_torus(1.0, 0.3, 40, 20));
-  EXPECT_EQ(first_reach(scene, Vec3::UnitZ(), Eigen::Quaterniond::Identity(), 1e-3), 0.0);
-  EXPECT_GT(first_reach(scene, Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 1.3);
+  EXPECT_EQ(first_centre_distance(scene, Vec3::UnitZ(), Eigen::Quaterniond::Identity(), 1e-3), 0.0);
+  EXPECT_GT(first_centre_distance(scene, Vec3::UnitX(), Eigen::Quaterniond::Identity(), 1e-3), 1.3);
 }
 
 TEST(MeshScene, GeneratedPathKeepsTheGapOnMeshes) {

@@ -209,8 +209,7 @@ class RealResultTest(SharedScratch):
         self.printed(work_precision.main, self.hard, self.soft, "--out", out)
         self.assertIn("K10:", self.printed(claims.main, self.hard, self.soft, "--out", out))
         self.assertIn("improved-loss-free", self.printed(summary.main, self.hard, self.soft))
-        self.assertEqual(sorted(os.listdir(out)), ["claims.json", "claims.md", "figure7.png", "figure7.svg",
-                                                   "work_precision.png", "work_precision.svg"])
+        self.assertEqual(sorted(os.listdir(out)), ["claims.md", "figure7.png", "figure7.svg", "work_precision.png", "work_precision.svg"])
 
 
 if __name__ == "__main__":

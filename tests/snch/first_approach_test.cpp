@@ -35,7 +35,7 @@ TEST(FirstApproach, OfBoxesIsWhereTheirFacesAreAGapApart) {
   // Also gaps far above the sizes of the boxes: then the bounding spheres alone are not near.
   const Approach boxes(testing::make_scene(make_box({0.1, 0.1, 0.1}, 2), make_box({0.3, 0.3, 0.1}, 2), 1.0));
   for (const double gap : {1e-4, 0.05, 1.0, 20.0})
-    EXPECT_NEAR(boxes.from({}, Vec3::UnitZ(), gap).reach, 0.1 + gap, 2.0 * TOLERANCE * gap);
+    EXPECT_NEAR(boxes.from({}, Vec3::UnitZ(), gap).displacement, 0.1 + gap, 2.0 * TOLERANCE * gap);
 }
 
 TEST(FirstApproach, IsAGapApartAndFartherEverywhereBeyond) {
@@ -45,12 +45,12 @@ TEST(FirstApproach, IsAGapApartAndFartherEverywhereBeyond) {
     for (int i = 0; i < 20; ++i) {
       Pose pose{0.02 * testing::random_direction(random), testing::random_rotation(random)};
       const Vec3 start = pose.translation, direction = testing::random_direction(random);
-      const double reach = shapes.from(pose, direction, gap).reach;
-      if (!std::isfinite(reach)) continue;  // Through the hole; see below.
-      pose.translation = start + reach * direction;
+      const double displacement = shapes.from(pose, direction, gap).displacement;
+      if (!std::isfinite(displacement)) continue;  // Through the hole; see below.
+      pose.translation = start + displacement * direction;
       EXPECT_NEAR(shapes.distance(pose), gap, 2.0 * TOLERANCE * gap);
       for (const double further : {1e-6, 1e-3, 0.01, 0.03, 0.1}) {
-        pose.translation = start + (reach + further) * direction;
+        pose.translation = start + (displacement + further) * direction;
         EXPECT_GT(shapes.distance(pose), gap) << further;
       }
     }
@@ -60,8 +60,8 @@ TEST(FirstApproach, IsAGapApartAndFartherEverywhereBeyond) {
 TEST(FirstApproach, IsNoneWhereALinePassesWithoutComingNear) {
   // A small blob along the axis of a torus with a hole of 0.03.
   const Approach shapes(testing::make_scene(make_blob(0.005, 0.0, 2), make_torus(0.05, 0.02, 32, 16), 1.0));
-  EXPECT_FALSE(std::isfinite(shapes.from({}, Vec3::UnitZ(), 0.02).reach));
-  EXPECT_TRUE(std::isfinite(shapes.from({}, Vec3::UnitZ(), 0.03).reach));
+  EXPECT_FALSE(std::isfinite(shapes.from({}, Vec3::UnitZ(), 0.02).displacement));
+  EXPECT_TRUE(std::isfinite(shapes.from({}, Vec3::UnitZ(), 0.03).displacement));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ import re
 import unittest
 
 from cases import ROOT, call, text_of
-from claim_verdicts import read_verdicts
+from claim_rules import read_verdicts
 import front_page
 from lmdbench_results import ResultError
 

@@ -9,13 +9,14 @@ from cases import text_of
 
 
 def mutants():
-    found, row = [], {}
-    for key, value in [*re.findall(r"^(?:([a-z]+): (.*))?$", text_of("scripts", "mutants.txt"), re.M), ("", "")]:
-        if key in ("", "name"):
-            found += [row] if "name" in row else []
-            row = {shared: row[shared] for shared in ("file", "test") if shared in row}
-        if key:
-            row[key] = value
+    found, file = [], ""
+    for line in text_of("scripts", "mutants.txt").splitlines():
+        if re.match("[^ #]", line):
+            file = line.split()[0]
+        elif mutant := re.fullmatch(r"  ([\w-]+)(?: \(\S+\))?: (.*?) =>(?: (.*))?", line):
+            found.append({"file": file, **dict(zip(("name", "from", "to"), mutant.groups("")))})
+        elif not re.fullmatch("|#.*|    equivalent: .+", line):
+            raise ValueError(f"scripts/mutants.txt: what is this: {line}")
     return found
 
 
@@ -30,4 +31,4 @@ class Mutants(unittest.TestCase):
             with self.subTest(mutant["name"]):
                 lines = [line for line in text_of(mutant["file"]).splitlines() if mutant["from"] in line]
                 self.assertEqual(len(lines), 1, (mutant["file"], mutant["from"]))
-                self.assertNotEqual(mutant["from"], mutant.get("to", ""))
+                self.assertNotEqual(mutant["from"], mutant["to"])

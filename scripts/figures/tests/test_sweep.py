@@ -13,6 +13,7 @@ import numpy as np
 
 from cases import Scratch
 import claim_regions
+from claim_rules import CLAIMS
 import region_rules
 import intervals
 import region_cost
@@ -207,6 +208,10 @@ def jumping(series, every, switches, **more):
     return row(series, every, switches=switches, true_switches=2.0, jumps=3.0 * switches, true_jumps=4.0, false_jumps=2.9 * switches, **more)
 
 
+def judged(claim, *evidence):
+    return CLAIMS[claim].judge(*evidence)
+
+
 class Verdicts(SweepScratch):
     def test_one_event_decides_nothing(self):
         self.assertEqual(region_rules.decide(0.5, 1.5, at_least=1.0), claim_regions.OPEN)
@@ -230,7 +235,7 @@ class Verdicts(SweepScratch):
     def test_k1_compares_with_improved_under_the_same_schedule_and_cutoff(self):
         often = [jumping("original", 20, 100.0), jumping("improved", 20, 1.0)] * 3
         rarely = [jumping("original", 100, 0.0), jumping("improved", 100, 1.0)]
-        text, cells = claim_regions.k1(self.sweep(often + rarely, "claim-k1"))
+        text, cells = judged("K1", self.sweep(often + rarely, "claim-k1"))
         self.assertEqual(list(cells.values()), [claim_regions.HOLDS, claim_regions.FAILS])
         self.assertIn("10 [", "\n".join(text))
 
@@ -239,17 +244,17 @@ class Verdicts(SweepScratch):
         other = [{**entry, "scene": "armadillo-bunny"} for entry in hard[:1]]
         budget = self.sweep(hard + other, "budget")
         self.assertEqual(len(budget.restricted("bunny-hard").points), 2)
-        text, cells = claim_regions.k1(budget.restricted("bunny-hard"))
+        text, cells = judged("K1", budget.restricted("bunny-hard"))
         self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
-        with unittest.mock.patch.object(claim_regions, "CLAIMS", [claim for claim in claim_regions.CLAIMS if claim[0] in ("K1", "K5")]):
-            page = claim_regions.markdown({"budget": budget})
+        with unittest.mock.patch.object(claim_regions, "CLAIMS", {name: CLAIMS[name] for name in ("K1", "K5")}):
+            page = claim_regions.markdown({"budget": budget}, claim_regions.judged({"budget": budget}))
         self.assertIn("| K5 | The reduction drops up to twenty times, more on denser meshes | **not measured**", page)
         self.assertIn("**reproduced** | in the one setting | 1 / 0 / 0 |", page)
 
     def test_k5_and_the_summary(self):
         rows = [row("improved", reduction_ratio_maximum=20.0), row("improved", reduction_ratio_maximum=90.0)]
-        self.assertEqual(len(claim_regions.k5(self.sweep(rows, "claim-k10"))[1]), 1, "two points of one setting")
-        self.assertEqual(list(claim_regions.k5(self.sweep(rows[:1], "claim-k5"))[1].values()), [claim_regions.HOLDS])
+        self.assertEqual(len(judged("K5", self.sweep(rows, "claim-k10"))[1]), 1, "two points of one setting")
+        self.assertEqual(list(judged("K5", self.sweep(rows[:1], "claim-k5"))[1].values()), [claim_regions.HOLDS])
 
     def test_k2_and_k4_judge_means_over_paths(self):
         def path(series, number, **numbers):
@@ -264,11 +269,11 @@ class Verdicts(SweepScratch):
         rows = [path("original", n, **numbers(4.0 + 0.1 * n, 50.0 + n, 12.0 + n)) for n in range(6)]
         rows += [path("improved", n, **numbers(3.5, 5.0, 7.0 + 0.1 * n)) for n in range(6)]
         found = self.sweep(rows, "claim-k1")
-        self.assertEqual(list(claim_regions.k4(found)[1].values()), [claim_regions.HOLDS])
-        self.assertEqual(list(claim_regions.k2(found)[1].values()), [claim_regions.FAILS, claim_regions.HOLDS])
-        # A mean 1.5 times as large is not similar, however much the original's fluctuates.
+        self.assertEqual(list(judged("K4", found)[1].values()), [claim_regions.HOLDS])
+        self.assertEqual(list(judged("K2", found)[1].values()), [claim_regions.FAILS, claim_regions.HOLDS])
+        # More LMDs than 1.5 times as many are not similar, however much the original's fluctuates.
         rows = [{**entry, "lmd_count_mean": 2 * entry["lmd_count_mean"]} if entry["method"] == "original" else entry for entry in rows]
-        self.assertEqual(list(claim_regions.k4(self.sweep(rows))[1].values()), [claim_regions.FAILS])
+        self.assertEqual(list(judged("K4", self.sweep(rows))[1].values()), [claim_regions.FAILS])
 
     def test_a_ratio_of_times_is_as_wide_as_its_repetitions(self):
         new, old = np.full((3, 50), 2.0), np.full((3, 50), 1.0)
@@ -282,26 +287,26 @@ class Verdicts(SweepScratch):
     def test_k8_needs_every_repetition(self):
         def roles(*shares):
             return {"experiment": "closed", "rows": [role_row("improved-hard", share) for share in shares]}
-        self.assertEqual(list(claim_regions.k8(roles(0.1, 0.2))[1].values()), [claim_regions.HOLDS])
-        self.assertEqual(list(claim_regions.k8(roles(0.1, 0.7))[1].values()), [claim_regions.OPEN])
-        self.assertEqual(list(claim_regions.k8(roles(0.6, 0.7))[1].values()), [claim_regions.FAILS])
-        self.assertEqual(list(claim_regions.k8(roles(0.1))[1].values()), [claim_regions.OPEN], "one repetition")
+        self.assertEqual(list(judged("K8", roles(0.1, 0.2))[1].values()), [claim_regions.HOLDS])
+        self.assertEqual(list(judged("K8", roles(0.1, 0.7))[1].values()), [claim_regions.OPEN])
+        self.assertEqual(list(judged("K8", roles(0.6, 0.7))[1].values()), [claim_regions.FAILS])
+        self.assertEqual(list(judged("K8", roles(0.1))[1].values()), [claim_regions.OPEN], "one repetition")
 
     def test_k8_knows_the_device_loop_without_its_simulation(self):
         row = role_row("original-hard", 9.0, force_share=0.1)
-        text, cells = claim_regions.k8({"experiment": "closed", "rows": [row, row]})
+        text, cells = judged("K8", {"experiment": "closed", "rows": [row, row]})
         self.assertEqual(cells, {"original | hard": claim_regions.FAILS,
                                  "original, the simulated device's motion left out | hard": claim_regions.HOLDS})
         self.assertIn("| 9e+03 | 100 |", "\n".join(text))
         row["force_share"] = 0.6
-        self.assertEqual(claim_regions.k8({"experiment": "closed", "rows": [row, row]})[1]["original, the simulated device's motion left out | hard"],
+        self.assertEqual(judged("K8", {"experiment": "closed", "rows": [row, row]})[1]["original, the simulated device's motion left out | hard"],
                          claim_regions.FAILS)
 
     def test_two_loads_that_contradict_each_other_are_named(self):
         def roles(hard, soft):
             rows = [role_row(f"original-{name}", share) for name, shares in (("hard", hard), ("soft", soft)) for share in shares]
             return {"roles": claim_regions.Roles(experiment="closed", rows=rows, context={"build": {"git_commit": "1234567890123"}})}
-        claims = list(claim_regions.judged(roles([0.1, 0.1], [0.1, 0.1])))
+        claims = claim_regions.judged(roles([0.1, 0.1], [0.1, 0.1]))
         text = "\n".join(claim_regions.two_loads(claims, roles([0.1, 0.7], [0.8, 0.8])))
         self.assertIn("| K8 | 2 | 0 | 1 | 1 |", text)
         self.assertIn("`roles` at 123456789012)", text)

@@ -34,11 +34,11 @@ ConvexPolygon ConvexPolygon::cut_by(const ConvexPolygon& other) const {
   return ConvexPolygon(std::move(kept));
 }
 
-SegmentPart ConvexPolygon::part_of(const Vec2& p, const Vec2& q, double reach) const {
+SegmentPart ConvexPolygon::part_of(const Vec2& p, const Vec2& q, double within) const {
   SegmentPart part{0.0, corners.empty() ? 0.0 : 1.0};
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec2 side = corners[(k + 1) % corners.size()] - corners[k];
-    const double spare = reach > 0.0 ? reach * side.norm() : 0.0;
+    const double spare = within > 0.0 ? within * side.norm() : 0.0;
     const double side_p = cross(side, p - corners[k]) + spare, side_q = cross(side, q - corners[k]) + spare;
     if (side_p < 0.0 && side_q < 0.0) return {};
     if (side_p < 0.0) part.begin = std::max(part.begin, side_p / (side_p - side_q));
@@ -53,22 +53,22 @@ Box2 ConvexPolygon::box() const {
   return box;
 }
 
-bool ConvexPolygon::holds(const Vec2& x, double reach) const {
-  LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
+bool ConvexPolygon::holds(const Vec2& x, double within) const {
+  LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec2 side = corners[(k + 1) % corners.size()] - corners[k];
-    if (cross(side, x - corners[k]) < -reach * side.norm()) return false;
+    if (cross(side, x - corners[k]) < -within * side.norm()) return false;
   }
   return !corners.empty();
 }
 
 namespace {
 
-/// Whether all of b is farther than `reach` outside some side of a.
-bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double reach) {
+/// Whether all of b is farther than `within` outside some side of a.
+bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double within) {
   for (std::size_t k = 0; k < a.corners.size(); ++k) {
     const Vec2 side = a.corners[(k + 1) % a.corners.size()] - a.corners[k];
-    const double limit = -reach * side.norm();
+    const double limit = -within * side.norm();
     if (std::all_of(b.corners.begin(), b.corners.end(),
                     [&](const Vec2& x) { return cross(side, x - a.corners[k]) < limit; }))
       return true;
@@ -78,9 +78,9 @@ bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double reach
 
 }  // namespace
 
-bool ConvexPolygon::touches(const ConvexPolygon& other, double reach) const {
-  LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
-  return !side_separates(*this, other, reach) && !side_separates(other, *this, reach);
+bool ConvexPolygon::touches(const ConvexPolygon& other, double within) const {
+  LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
+  return !side_separates(*this, other, within) && !side_separates(other, *this, within);
 }
 
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {

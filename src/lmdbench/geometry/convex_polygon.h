@@ -27,9 +27,9 @@ struct Box2 {
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  bool comes_within(const Box2& other, double reach) const {
-    return low[0] <= other.high[0] + reach && other.low[0] <= high[0] + reach &&
-           low[1] <= other.high[1] + reach && other.low[1] <= high[1] + reach;
+  bool comes_within(const Box2& other, double within) const {
+    return low[0] <= other.high[0] + within && other.low[0] <= high[0] + within &&
+           low[1] <= other.high[1] + within && other.low[1] <= high[1] + within;
   }
 };
 
@@ -82,14 +82,14 @@ struct ConvexPolygon {
   /// It has no corners where the polygons do not overlap.
   ConvexPolygon cut_by(const ConvexPolygon& other) const;
   /// The part of the segment from p to q that lies inside.
-  /// @param reach  how far outside still counts as inside [m]
-  SegmentPart part_of(const Vec2& p, const Vec2& q, double reach = 0.0) const;
+  /// @param within  how far outside still counts as inside [m]
+  SegmentPart part_of(const Vec2& p, const Vec2& q, double within = 0.0) const;
   AreaAndCentroid measure() const { return area_and_centroid(corners); }
   Box2 box() const;
-  /// Whether a point is inside, or outside by no more than `reach` of every side [m].
-  bool holds(const Vec2& x, double reach) const;
-  /// False where a side of either keeps the two farther than `reach` [m] apart; else true.
-  bool touches(const ConvexPolygon& other, double reach) const;
+  /// Whether a point is inside, or outside by no more than `within` of every side [m].
+  bool holds(const Vec2& x, double within) const;
+  /// False where a side of either keeps the two farther than `within` [m] apart; else true.
+  bool touches(const ConvexPolygon& other, double within) const;
 };
 
 }  // namespace lmdbench

@@ -24,18 +24,18 @@ class BoxGrid {
   const Vec2& high() const { return bounds_.high; }
   std::size_t bytes() const { return boxes_.capacity() * sizeof(Box2) + cells_.bytes(); }
 
-  /// Calls visit(index) once for every box within `reach` of a box, until it returns false.
+  /// Calls visit(index) once for every box within `within` of a box, until it returns false.
   /// @return whether visit never returned false
   template <class Visit>
-  bool for_each_near(const Box2& box, double reach, Visit&& visit) const {
-    LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
-    const auto [x0, y0] = cell_of(box.low - Vec2::Constant(reach));
-    const auto [x1, y1] = cell_of(box.high + Vec2::Constant(reach));
+  bool for_each_near(const Box2& box, double within, Visit&& visit) const {
+    LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
+    const auto [x0, y0] = cell_of(box.low - Vec2::Constant(within));
+    const auto [x1, y1] = cell_of(box.high + Vec2::Constant(within));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x)
         for (const std::int32_t index : cells_[y * columns_ + x]) {
           const Box2& own = boxes_[static_cast<std::size_t>(index)];
-          if (!own.comes_within(box, reach)) continue;
+          if (!own.comes_within(box, within)) continue;
           // Visited in the first cell that it shares with the given box.
           const auto [first_x, first_y] = cell_of(own.low);
           if (x != std::max(x0, first_x) || y != std::max(y0, first_y)) continue;
@@ -44,22 +44,22 @@ class BoxGrid {
     return true;
   }
 
-  /// Calls visit(index) for every box within `reach` of a segment, only in the cells that it
+  /// Calls visit(index) for every box within `within` of a segment, only in the cells that it
   /// passes, row by row; also for some farther boxes, and for some more than once.
   template <class Visit>
-  void for_each_near(const Vec2& a, const Vec2& b, double reach, Visit&& visit) const {
-    LMDBENCH_EXPECTS(reach >= 0.0, "a tolerance that is negative or not a number");
+  void for_each_near(const Vec2& a, const Vec2& b, double within, Visit&& visit) const {
+    LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
     Box2 all;
     all.add(a);
     all.add(b);
-    const int first = cell_of(all.low - Vec2::Constant(reach)).second;
-    const int last = cell_of(all.high + Vec2::Constant(reach)).second;
+    const int first = cell_of(all.low - Vec2::Constant(within)).second;
+    const int last = cell_of(all.high + Vec2::Constant(within)).second;
     const double rise = b[1] - a[1];
     for (int y = first; y <= last; ++y) {
       // The part of the segment in this row; the first and last rows extend outwards without end.
       Box2 part = all;
-      const double bottom = bounds_.low[1] + y / cells_per_metre_[1] - reach;
-      const double top = bounds_.low[1] + (y + 1) / cells_per_metre_[1] + reach;
+      const double bottom = bounds_.low[1] + y / cells_per_metre_[1] - within;
+      const double top = bounds_.low[1] + (y + 1) / cells_per_metre_[1] + within;
       if (rise != 0.0) {
         const auto clipped = [&](double height) { return std::clamp((height - a[1]) / rise, 0.0, 1.0); };
         const double at_bottom = clipped(y > 0 ? bottom : all.low[1]);
@@ -68,11 +68,11 @@ class BoxGrid {
         part.low[0] = std::min(x0, x1);
         part.high[0] = std::max(x0, x1);
       }
-      const int left = cell_of(part.low - Vec2::Constant(reach)).first;
-      const int right = cell_of(part.high + Vec2::Constant(reach)).first;
+      const int left = cell_of(part.low - Vec2::Constant(within)).first;
+      const int right = cell_of(part.high + Vec2::Constant(within)).first;
       for (int x = left; x <= right; ++x)
         for (const std::int32_t index : cells_[y * columns_ + x])
-          if (boxes_[static_cast<std::size_t>(index)].comes_within(part, reach)) visit(index);
+          if (boxes_[static_cast<std::size_t>(index)].comes_within(part, within)) visit(index);
     }
   }
 

@@ -13,28 +13,28 @@
 namespace lmdbench {
 namespace {
 
-/// Pose whose moving centre lies at `reach` from the fixed centre.
+/// Pose whose moving centre lies at `centre_distance` from the fixed centre.
 Pose pose_at(const PathScene& scene, const Vec3& direction_W, const Eigen::Quaterniond& rotation,
-             double reach) {
+             double centre_distance) {
   // A pose's translation is the one of the mesh frame's origin, which need not be the centre.
-  return {scene.fixed_centre_W + reach * direction_W - rotation * scene.moving_centre_M, rotation};
+  return {scene.fixed_centre_W + centre_distance * direction_W - rotation * scene.moving_centre_M, rotation};
 }
 
 }  // namespace
 
-double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen::Quaterniond& rotation,
-                   double gap) {
+double first_centre_distance(const PathScene& scene, const Vec3& direction_W,
+                             const Eigen::Quaterniond& rotation, double gap) {
   LMDBENCH_EXPECTS(is_unit(direction_W) && gap > 0.0,
                    "a direction that was not normalised, or a gap of another unit");
-  if (scene.reach) return scene.reach(direction_W, rotation, gap);
-  double reach = scene.moving_radius + scene.fixed_radius + gap;
+  if (scene.centre_distance) return scene.centre_distance(direction_W, rotation, gap);
+  double centre_distance = scene.moving_radius + scene.fixed_radius + gap;
   for (int step = 0; step < MAXIMUM_APPROACH_STEPS; ++step) {
-    const double excess = scene.distance(pose_at(scene, direction_W, rotation, reach)) - gap;
+    const double excess = scene.distance(pose_at(scene, direction_W, rotation, centre_distance)) - gap;
     if (excess <= GAP_TOLERANCE * gap) break;
-    reach -= excess;
-    if (reach <= 0.0) return 0.0;
+    centre_distance -= excess;
+    if (centre_distance <= 0.0) return 0.0;
   }
-  return reach;
+  return centre_distance;
 }
 
 double wanted_gap(const std::vector<GapPoint>& gaps, double time) {
@@ -66,7 +66,7 @@ Path generate_path(const PathSpec& spec, const PathScene& scene, const ProgressF
   std::vector<double> reaches(frame_total);
   for (std::size_t k = 0; k < frame_total; ++k) {
     const double gap = scene.diagonal * wanted_gap(spec.gaps, static_cast<double>(k) / spec.frame_rate);
-    reaches[k] = first_reach(scene, direction_turns[k] * spec.start_direction, rotations[k], gap);
+    reaches[k] = first_centre_distance(scene, direction_turns[k] * spec.start_direction, rotations[k], gap);
     if (progress) progress(k + 1, frame_total);
   }
   reaches = bounded_majorant(reaches, time_step, spec.radial_limits(scene.diagonal));

@@ -15,8 +15,8 @@ namespace lmdbench {
 /// Exact minimum distance [m] of the moving mesh at X_WM to the fixed one; 0 if they intersect.
 using DistanceFunction = std::function<double(const Pose& X_WM)>;
 
-/// Exact `first_reach` of a scene, without its many distances; 0 where the gap never occurs.
-using ReachFunction =
+/// Exact `first_centre_distance` of a scene, without its many distances; 0 where the gap never occurs.
+using CentreDistanceFunction =
     std::function<double(const Vec3& direction_W, const Eigen::Quaterniond& rotation, double gap)>;
 
 /// Called now and then with the number of frames done and of all frames.
@@ -25,9 +25,9 @@ using ProgressFunction = std::function<void(std::size_t done, std::size_t all)>;
 /// All that the generator knows of the two meshes. Each sphere contains its mesh.
 struct PathScene {
   DistanceFunction distance;
-  ReachFunction reach = nullptr;        ///< Unset: by conservative advancement over `distance`.
-  double diagonal = 0.0;                ///< Of the moving mesh: the unit of gaps [m].
-  Vec3 moving_centre_M = Vec3::Zero();  ///< What the moving mesh turns about.
+  CentreDistanceFunction centre_distance = nullptr;  ///< Unset: by conservative advancement over `distance`.
+  double diagonal = 0.0;                             ///< Of the moving mesh: the unit of gaps [m].
+  Vec3 moving_centre_M = Vec3::Zero();               ///< What the moving mesh turns about.
   double moving_radius = 0.0;
   Vec3 fixed_centre_W = Vec3::Zero();
   double fixed_radius = 0.0;
@@ -41,14 +41,14 @@ inline constexpr double GAP_TOLERANCE = 1e-3;
 inline constexpr int MAXIMUM_APPROACH_STEPS = 400;
 
 /// Distance between the centres at which the moving mesh, coming from outside along `direction_W`,
-/// first has the gap. By the scene's own `reach`, or by conservative advancement: a translation by
+/// first has the gap. By the scene's own `centre_distance`, or by conservative advancement: a translation by
 /// s changes the distance by at most s, so steps of distance minus gap never come nearer than the
 /// gap. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass each
 /// other without coming that near.
 /// @param direction_W unit, from the fixed mesh's centre to the moving one's
 /// @param gap metres, > 0
-double first_reach(const PathScene& scene, const Vec3& direction_W, const Eigen::Quaterniond& rotation,
-                   double gap);
+double first_centre_distance(const PathScene& scene, const Vec3& direction_W,
+                             const Eigen::Quaterniond& rotation, double gap);
 
 /// Wanted gap at a time, as a fraction of the diagonal (see GapPoint); constant before
 /// the first and after the last.
@@ -60,7 +60,7 @@ inline constexpr const char* GENERATED_PATH_MARK = "made by 'lmdbench path gener
 /// Makes a path:
 ///  1. The direction from the fixed mesh to the moving one wanders over the sphere, and the moving
 ///     mesh turns about its own centre (`Wander`); both are smooth and depend on the seed alone.
-///  2. In every frame `first_reach` finds the centre distance with the wanted gap.
+///  2. In every frame `first_centre_distance` finds the centre distance with the wanted gap.
 ///  3. That distance jumps where the first contact jumps (silhouettes) and has kinks where contacts
 ///     change. `bounded_majorant` lays a motion above it that a hand could make. Above is outside,
 ///     so gaps only grow.

@@ -53,10 +53,10 @@ PathScene mesh_scene(TriangleMesh moving, TriangleMesh fixed) {
   const auto pair = std::make_shared<MeshPair>(std::move(moving), std::move(fixed));
   scene.distance = [pair](const Pose& X_WM) { return pair->distance(X_WM); };
   const Vec3 moving_centre_M = scene.moving_centre_M, fixed_centre_W = scene.fixed_centre_W;
-  scene.reach = [pair, moving_centre_M, fixed_centre_W](const Vec3& direction_W,
-                                                        const Eigen::Quaterniond& rotation, double gap) {
+  scene.centre_distance = [pair, moving_centre_M, fixed_centre_W](
+                              const Vec3& direction_W, const Eigen::Quaterniond& rotation, double gap) {
     const Pose centred{fixed_centre_W - rotation * moving_centre_M, rotation};
-    return std::max(0.0, pair->approach(centred, direction_W, gap).reach);
+    return std::max(0.0, pair->approach(centred, direction_W, gap).displacement);
   };
   return scene;
 }

@@ -130,13 +130,13 @@ bool same_bits(const Answer& a, const Answer& b) {
 }
 
 /// Whether two forces agree.
-/// @param reach lever of torques [m]
-bool same_force(const Answer& a, const Answer& b, double reach) {
+/// @param lever lever of torques [m]
+bool same_force(const Answer& a, const Answer& b, double lever) {
   constexpr double SINGLE_PRECISION = 1e-4;  // of the larger force
   if (!a.own) return true;
   const double allowed = SINGLE_PRECISION * std::max(a.own->force.norm(), b.own->force.norm());
   return (a.own->force - b.own->force).norm() <= allowed &&
-         (a.own->torque_about(Vec3::Zero()) - b.own->torque_about(Vec3::Zero())).norm() <= reach * allowed;
+         (a.own->torque_about(Vec3::Zero()) - b.own->torque_about(Vec3::Zero())).norm() <= lever * allowed;
 }
 
 /// What one method did over all scenes.
@@ -174,9 +174,9 @@ class MethodCheck {
     visit(*instance, order, again_, same_bits);
     instance = make(of_scene);
     visit(*instance, order, anew_, same_bits);
-    const double reach = bounding_box_diagonal(scene.a) + bounding_box_diagonal(scene.b);
+    const double lever = bounding_box_diagonal(scene.a) + bounding_box_diagonal(scene.b);
     const auto near = [&](const Answer& a, const Answer& b) {
-      return same_points(a.set, b.set, scene.tolerance()) && same_force(a, b, reach);
+      return same_points(a.set, b.set, scene.tolerance()) && same_force(a, b, lever);
     };
     instance = make(scene_of(scrambled(scene.a, random), scrambled(scene.b, random), scene.cutoff));
     visit(*instance, order, scrambled_, near);

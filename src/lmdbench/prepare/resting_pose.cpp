@@ -74,14 +74,15 @@ std::optional<Pose> approach(const Scene& scene, const Eigen::Quaterniond& R_WM,
   // The boxes' centres on one line, if possible: meshes need not be about their origins.
   const Vec3 centre_M = bounding_box_centre(scene.moving->surface().mesh);
   pose.translation = bounding_box_centre(scene.fixed.front()->surface().mesh) - R_WM * centre_M;
-  double reach = -std::numeric_limits<double>::infinity();
+  double displacement = -std::numeric_limits<double>::infinity();
   for (const auto& fixed : scene.fixed)
-    reach = std::max(
-        reach, first_approach(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed->surface(),
-                              fixed->prepared<Hierarchy>(), pose, from_W, gap, GAP_TOLERANCE)
-                   .reach);
-  if (!std::isfinite(reach)) return std::nullopt;
-  pose.translation += reach * from_W;
+    displacement =
+        std::max(displacement, first_approach(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
+                                              fixed->surface(), fixed->prepared<Hierarchy>(), pose, from_W,
+                                              gap, GAP_TOLERANCE)
+                                   .displacement);
+  if (!std::isfinite(displacement)) return std::nullopt;
+  pose.translation += displacement * from_W;
   return pose;
 }
 

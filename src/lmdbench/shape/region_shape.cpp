@@ -83,13 +83,13 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   return shape;
 }
 
-/// True: inside a convex polygon by more than `reach` of every side; false: beyond one by more.
-std::optional<bool> is_clearly_in(const std::vector<Vec2>& polygon, const Vec2& x, double reach) {
+/// True: inside a convex polygon by more than `within` of every side; false: beyond one by more.
+std::optional<bool> is_clearly_in(const std::vector<Vec2>& polygon, const Vec2& x, double within) {
   bool is_clear = true;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vec2 side = polygon[k + 1 < polygon.size() ? k + 1 : 0] - polygon[k];
     const double inwards = cross(side, x - polygon[k]);
-    const bool is_near = inwards * inwards <= reach * reach * side.squaredNorm();
+    const bool is_near = inwards * inwards <= within * within * side.squaredNorm();
     if (!is_near && inwards < 0.0) return false;
     is_clear = is_clear && !is_near;
   }
@@ -99,14 +99,14 @@ std::optional<bool> is_clearly_in(const std::vector<Vec2>& polygon, const Vec2& 
 
 }  // namespace
 
-std::optional<bool> RegionShape::clearly_holds(const Vec2& x, double reach) const {
+std::optional<bool> RegionShape::clearly_holds(const Vec2& x, double within) const {
   if (pieces.empty()) return std::nullopt;  // Too narrow to have any.
   Box2 box;
   box.add(x);
   bool is_near = false, is_inside = false;
-  piece_grid.for_each_near(box, reach, [&](std::int32_t index) {
+  piece_grid.for_each_near(box, within, [&](std::int32_t index) {
     const std::optional<bool> in_piece =
-        is_clearly_in(pieces[static_cast<std::size_t>(index)].corners, x, reach);
+        is_clearly_in(pieces[static_cast<std::size_t>(index)].corners, x, within);
     is_near = is_near || in_piece != false;
     is_inside = in_piece == true;
     return !is_inside;
@@ -116,12 +116,12 @@ std::optional<bool> RegionShape::clearly_holds(const Vec2& x, double reach) cons
   return std::nullopt;
 }
 
-bool RegionShape::clearly_holds_segment(const Vec2& a, const Vec2& b, double reach) const {
-  if (!clearly_holds(a, reach).value_or(false)) return false;
-  if (pieces.size() == 1) return clearly_holds(b, reach).value_or(false);
+bool RegionShape::clearly_holds_segment(const Vec2& a, const Vec2& b, double within) const {
+  if (!clearly_holds(a, within).value_or(false)) return false;
+  if (pieces.size() == 1) return clearly_holds(b, within).value_or(false);
   // No side is near: all of it is where its first end is.
   bool is_clear = true;
-  side_grid.for_each_near(a, b, reach, [&](std::int32_t) { is_clear = false; });
+  side_grid.for_each_near(a, b, within, [&](std::int32_t) { is_clear = false; });
   return is_clear;
 }
 

@@ -31,11 +31,11 @@ struct RegionShape {
   bool has_features_inside = false;
 
   /// Whether a point of the plane is inside, away from every chain and corner, or outside, each by
-  /// more than `reach`. Nothing where only triangles tell: near the border and where pieces meet.
-  /// @param reach  at least the pieces' rounding, FLATNESS of the largest coordinate [m]
-  std::optional<bool> clearly_holds(const Vec2& x, double reach) const;
+  /// more than `within`. Nothing where only triangles tell: near the border and where pieces meet.
+  /// @param within  at least the pieces' rounding, FLATNESS of the largest coordinate [m]
+  std::optional<bool> clearly_holds(const Vec2& x, double within) const;
   /// Whether all points of a segment are clearly inside; false where that is not easily told.
-  bool clearly_holds_segment(const Vec2& a, const Vec2& b, double reach) const;
+  bool clearly_holds_segment(const Vec2& a, const Vec2& b, double within) const;
 };
 
 /// Shapes of the regions of more than one triangle; each takes a pass over its triangles and a

@@ -293,15 +293,15 @@ void ShapeComplex::append_corners(const Surface& surface, const FeatureId& lead,
 std::int32_t ShapeComplex::face_at(const Surface& surface, std::int32_t region, const Vec3& p_S) const {
   const RegionShape* shape = shapes.of_region(region);
   if (shape == nullptr) return lead_of_region(region);
-  const double reach = NAMING_TOLERANCE * regions.extent;
+  const double within = NAMING_TOLERANCE * regions.extent;
   const Plane& plane = regions.planes[static_cast<std::size_t>(region)];
   const Vec3 p = p_S - plane.height(p_S) * plane.normal;
   Box2 box;
   box.add(shape->frame.flat(p));
   std::int32_t first = -1;
-  for_each_face_near(region, box, reach, [&](std::int32_t t) {
+  for_each_face_near(region, box, within, [&](std::int32_t t) {
     if ((first < 0 || t < first) &&
-        (point_triangle_distance(p, surface.mesh.triangle(t)).point - p).norm() <= reach)
+        (point_triangle_distance(p, surface.mesh.triangle(t)).point - p).norm() <= within)
       first = t;
     return true;
   });

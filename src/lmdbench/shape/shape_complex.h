@@ -107,13 +107,13 @@ class ShapeComplex {
   }
 
   /// Calls visit(face) once for every face of a region whose box (RegionShape::frame) is within
-  /// `reach` of a box, until it returns false. @pre the region has a shape
+  /// `within` of a box, until it returns false. @pre the region has a shape
   /// @return whether visit never returned false
   template <class Visit>
-  bool for_each_face_near(std::int32_t region, const Box2& box, double reach, Visit&& visit) const {
+  bool for_each_face_near(std::int32_t region, const Box2& box, double within, Visit&& visit) const {
     const auto faces = regions.region_triangles[region];
     return shapes.of_region(region)->triangle_grid.for_each_near(
-        box, reach, [&](std::int32_t k) { return visit(faces[static_cast<std::size_t>(k)]); });
+        box, within, [&](std::int32_t k) { return visit(faces[static_cast<std::size_t>(k)]); });
   }
   /// The face of a region that names a point of its plane: the first in the mesh's order that holds
   /// the point (NAMING_TOLERANCE), or the first of the region where none does.

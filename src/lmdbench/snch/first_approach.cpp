@@ -57,7 +57,7 @@ class ApproachSearch {
     while (!stack.empty()) {
       const MeetingPair pair = stack.back();
       stack.pop_back();
-      if (!(pair.upper_bound > best_.reach)) continue;
+      if (!(pair.upper_bound > best_.displacement)) continue;
       const HierarchyNode& a = moving_hierarchy_.nodes[static_cast<std::size_t>(pair.index_a)];
       const HierarchyNode& b = fixed_hierarchy_.nodes[static_cast<std::size_t>(pair.index_b)];
       if (a.is_leaf() && b.is_leaf()) {
@@ -71,7 +71,7 @@ class ApproachSearch {
                                                                  candidate(pair.index_a, b.first_child + 1)};
       if (children[0].upper_bound > children[1].upper_bound) std::swap(children[0], children[1]);
       for (const MeetingPair& child : children)
-        if (child.upper_bound > best_.reach) stack.push_back(child);
+        if (child.upper_bound > best_.displacement) stack.push_back(child);
     }
     return best_;
   }
@@ -82,18 +82,18 @@ class ApproachSearch {
     const HierarchyNode& b = fixed_hierarchy_.nodes[static_cast<std::size_t>(index_b)];
     const Vec3 between = transform_.point(a.centre) - b.centre;
     const double along = between.dot(direction_);
-    const double reach = a.radius + b.radius + gap_;
-    const double slack = ROUNDING * (reach + between.norm());
-    const double wide = reach + slack;
+    const double sum = a.radius + b.radius + gap_;
+    const double slack = ROUNDING * (sum + between.norm());
+    const double wide = sum + slack;
     const double inside = wide * wide - (between - along * direction_).squaredNorm();
     if (!(inside >= 0.0)) return {NEVER, index_a, index_b};
     return {std::sqrt(inside) - along + slack, index_a, index_b};
   }
 
-  /// Whether slabs on an axis, at the best reach, are beyond the gap and separate from there on.
+  /// Whether slabs on an axis, at the best displacement, are beyond the gap and separate from there on.
   bool is_beyond(const Vec3& axis, const Triangle& a, const Triangle& b) const {
-    const Vec3 way = best_.reach * direction_;
-    const double extent = extent_ + std::abs(best_.reach);
+    const Vec3 way = best_.displacement * direction_;
+    const double extent = extent_ + std::abs(best_.displacement);
     const SlabGaps gaps = slab_gaps(axis, {a[0] + way, a[1] + way, a[2] + way}, b, extent);
     return (axis.dot(direction_) >= 0.0 ? gaps.a_above_b : gaps.b_above_a) > enough_;
   }
@@ -102,12 +102,12 @@ class ApproachSearch {
   void try_pair(std::int32_t triangle_moving, std::int32_t triangle_fixed, double s) {
     const Triangle a = transform_.triangle(moving_.mesh.triangle(triangle_moving));
     const Triangle b = fixed_.mesh.triangle(triangle_fixed);
-    if (best_.reach > NEVER &&
+    if (best_.displacement > NEVER &&
         (is_beyond(fixed_.face_normals[static_cast<std::size_t>(triangle_fixed)], a, b) ||
          is_beyond(transform_.direction(moving_.face_normals[static_cast<std::size_t>(triangle_moving)]), a,
                    b)))
       return;
-    for (int step = 0; step < MAXIMUM_STEPS && s > best_.reach; ++step) {
+    for (int step = 0; step < MAXIMUM_STEPS && s > best_.displacement; ++step) {
       const Vec3 way = s * direction_;
       const TrianglePairDistance pair = triangle_distance(Triangle{a[0] + way, a[1] + way, a[2] + way}, b);
       const double distance = std::sqrt(pair.squared_distance);

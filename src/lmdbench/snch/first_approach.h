@@ -14,7 +14,7 @@ namespace lmdbench {
 /// The first place at which a mesh on a line has a given distance.
 struct FirstApproach {
   /// Along the line [m]; -infinity where the mesh never comes so near.
-  double reach = -std::numeric_limits<double>::infinity();
+  double displacement = -std::numeric_limits<double>::infinity();
   std::int32_t triangle_moving = -1;  ///< The pair with that distance.
   std::int32_t triangle_fixed = -1;
 };

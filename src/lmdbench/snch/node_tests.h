@@ -46,8 +46,8 @@ struct NodePair {
 /// G1: the spheres are farther apart than the cutoff.
 inline bool rejected_by_cutoff(const NodePair& pair, double cutoff) {
   LMDBENCH_EXPECTS(cutoff >= 0.0, "a cutoff that is negative or not a number");
-  const double reach = cutoff + pair.radii;
-  return pair.squared_distance > reach * reach;
+  const double limit = cutoff + pair.radii;
+  return pair.squared_distance > limit * limit;
 }
 
 /// G2: no pair of collinear vectors from both cones exists: pi - angle(C_A, C_B) > phi_A + phi_B.

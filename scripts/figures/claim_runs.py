@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: The lmdbench authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What two runs say of the claims K1 to K10 (claim_rules.py): numbers in a sentence, whether each part of the claim holds (no part: not measured), and
+what to say where all parts hold."""
+
+import numpy as np
+
+from intervals import Rate
+from lmdbench_results import median, quantile, truth_of
+from region_rules import FAILS, HOLDS, LEAST_REPETITIONS, OPEN, all_of
+
+
+def of_each(results, look):
+    """(text, parts) of a rule that is asked of several results; look(result) gives them of one."""
+    found = [(result.name, *look(result)) for result in results]
+    return ("; ".join(f"{name}: {text}" for name, text, _ in found) + ".",
+            {f"{name}: {part}": holds for name, _, parts in found for part, holds in parts.items()})
+
+
+def judge(parts):
+    """Whether all named parts of a claim hold in these runs (None: undecided), and which do not."""
+    cells = {name: OPEN if holds is None else HOLDS if holds else FAILS for name, holds in parts.items()}
+    rest = [f"{words}: {'; '.join(name for name, cell in cells.items() if cell == kind)}"
+            for kind, words in ((FAILS, "not"), (OPEN, "undecided")) if kind in cells.values()]
+    return all_of(*cells.values()), "; ".join(rest)
+
+
+def inside(values, low=-np.inf, high=np.inf):
+    """Whether what the repetitions say lies within limits: None where they disagree or there is but one, so that nothing said of
+    times turns from run to run."""
+    within = [bool(low <= value <= high) for value in values]
+    return within[0] if len(within) >= LEAST_REPETITIONS and len(set(within)) == 1 else None
+
+
+def both(result):
+    return result.method("original"), result.method("improved")
+
+
+def errors(result):
+    """What stands beside every time: recall and force error of both methods."""
+    texts = []
+    for method in both(result):
+        texts.append(f"{method.label} {100 * method.number('recall'):.0f} % "
+                     f"({100 * method.number('recall_adjacent'):.0f} % with neighbouring features), "
+                     f"{method.number('force_error_rms_n'):.2f} N" if truth_of(method)
+                     else f"{method.label} not measured")
+    return f"(recall and RMS force error, {result.name}: " + "; ".join(texts) + ")"
+
+
+ZERO_SHARE, STRONG_SHARE = 0.05, 0.5
+
+
+def switches(method):
+    """How often a second in contact the force changes within one frame from below 5 % of F_max to above 50 % or back, with
+    the limits of its count."""
+    result = method.result
+    force = method.force_magnitude() / result.maximum_force()
+    low, high = np.minimum(force[1:], force[:-1]), np.maximum(force[1:], force[:-1])
+    return Rate([np.count_nonzero((low < ZERO_SHARE) & (high > STRONG_SHARE))], [result.seconds_in_contact()])
+
+
+def k1(hard, _):
+    original, improved = both(hard)
+    switch_o, switch_i = switches(original), switches(improved)
+    large = [f"{method.label} {method.events('jumps')} (truth {'under its law ' if method is original else ''}{method.events('true_jumps')})"
+             for method in (original, improved)]
+    return (f"a second [95 %], or of fewer than ten how many in what time: zero-to-strong switches original {switch_o}, improved "
+            f"{switch_i}; changes above 25 % of F_max {', '.join(large)}. {errors(hard)}"), {
+        "the improved force switches between zero and strong at most a tenth as often":
+            True if switch_i.high <= 0.1 * switch_o.low else False if switch_i.low > 0.1 * switch_o.high else None,
+        "the original jumps from zero to strong and back": inside((switch_o.low, switch_o.high), 1.0)}
+
+
+def k2(hard, _):
+    texts = []
+    for method in both(hard):
+        middle, p99, most = (method.number(f"lmd_count_{name}") for name in ("median", "p99", "maximum"))
+        share = np.mean(method.read("lmd_count")[hard.in_contact()] < 10)
+        texts.append(f"{method.label} median {middle:.0f}, 99th percentile {p99:.0f}, most {most:.0f}, under 10 in {100 * share:.1f} % of frames")
+    return "; ".join(texts) + ".", {f"{method.label}'s set stays under 10": method.number("lmd_count_p99") < 10 for method in both(hard)}
+
+
+def k3(_, soft):
+    forces = [method.force_magnitude()[soft.in_contact()] for method in both(soft)]
+    original, improved = (float(np.mean(force)) for force in forces)
+    excess = original / improved - 1.0 if improved > 0 else float("nan")
+    correlation = float(np.corrcoef(*forces)[0, 1]) if all(force.std() > 0 for force in forces) else float("nan")
+    return (f"correlation {correlation:.2f}; mean force original {original:.2f} N, improved {improved:.2f} N ({100 * excess:+.0f} %). {errors(soft)}"), {
+        "the forces are very similar (correlation)": correlation >= 0.8,
+        "the original's is higher": excess > 0.0,
+        "by little (up to 50 %)": abs(excess) <= 0.5}
+
+
+def k4(*runs):
+    def look(result):
+        counts = [method.read("lmd_count") for method in both(result)]
+        original, improved = (float(np.mean(count[result.in_contact()])) for count in counts)
+        wild, calm = (float(np.sum(np.abs(np.diff(count)))) / result.seconds_in_contact() for count in counts)
+        ratio = original / improved if improved > 0 else float("nan")
+        return (f"mean LMDs original {original:.2f}, improved {improved:.2f} (ratio {ratio:.2f}); LMDs gained and lost per second original {wild:.0f}, "
+                f"improved {calm:.0f}"), {"similar counts": 2 / 3 <= ratio <= 1.5, "the original fluctuates more": wild > calm}
+
+    return of_each(runs, look)
+
+
+def k5(*runs):
+    def look(result):
+        ratio, most = (result.method("improved").number(name) for name in ("reduction_ratio", "reduction_ratio_maximum"))
+        return f"{ratio:.1f} over all searches, {most:.1f} at most ({result.triangles():,} triangles)", {}
+
+    largest = max(result.method("improved").number("reduction_ratio_maximum") for result in runs)
+    return of_each(runs, look)[0], {"up to about twenty times (10 to 40)": 10 <= largest <= 40}, "as far as measured; two runs do not show the growth with the mesh"
+
+
+def search_ratios(original, improved, busy, repetition):
+    """Base ratio, 99th percentile of reduction / search, and total ratio of one repetition, searches in contact."""
+    old, new, more = (method.times(name)[repetition][busy] for method, name in (
+        (original, "global_search_time"), (improved, "global_search_time"), (improved, "first_reduction_time")))
+    return median(new) / median(old), quantile(more / new, 0.99), median(new + more) / median(old)
+
+
+def k6(*runs):
+    def look(result):
+        original, improved = both(result)
+        base_o, base_i = (method.number("global_search_median_s") for method in both(result))
+        busy = result.in_contact()[improved.read("global_frame").astype(int)]
+        share = (improved.median_times("first_reduction_time") / improved.median_times("global_search_time"))[busy]
+        base, reduction, whole = zip(*(search_ratios(original, improved, busy, r) for r in range(len(improved.times("global_search_time")))))
+        return (f"base {base_i * 1e3:.3f} against {base_o * 1e3:.3f} ms (ratio {base_i / base_o:.2f}); reduction / search median "
+                f"{median(share):.2f}, 99th percentile {quantile(share, 0.99):.2f}; total ratio "
+                f"{improved.number('search_with_reduction_median_s') / base_o:.2f} {errors(result)}"), {
+            "base time almost equal": inside(base, 0.8, 1.25),
+            "the reduction can take as long as the search": inside(reduction, 0.8),
+            "total about twice the original": inside(whole, 1.5, 2.5)}
+
+    return of_each(runs, look)
+
+
+def update_ratios(result):
+    """Improved / original of the median local update in contact, by repetition; and of the means, which alone see the few long updates that receive a
+    new set of candidates."""
+    contact = result.in_contact()
+    old, new = (np.median(method.times("local_update_time")[:, contact], axis=1) for method in both(result))
+    mean_old, mean_new = (np.mean(method.median_times("local_update_time")[contact]) for method in both(result))
+    return new[: len(old)] / old[: len(new)], mean_new / mean_old
+
+
+def k7(hard, soft):
+    (hard_ratios, hard_means), (soft_ratios, soft_means) = map(update_ratios, (hard, soft))
+    hard_ratios, soft_ratios = hard_ratios[: len(soft_ratios)], soft_ratios[: len(hard_ratios)]
+    times = [(name, *(method.number("local_update_median_s") for method in both(result))) for name, result in (("hard", hard), ("soft", soft))]
+    medians = ", ".join(f"{name} {new / old:.1f} ({new * 1e6:.1f} against {old * 1e6:.1f} us)" for name, old, new in times)
+    return (f"{medians}; ratio of the means, which sees the few long updates that receive a new search's set: hard {hard_means:.2f}, "
+            f"soft {soft_means:.2f}. {errors(hard)} {errors(soft)}"), {
+        "the local update is slower": inside(np.minimum(hard_ratios, soft_ratios), 1.0),
+        "much slower when hard (at least twice)": inside(hard_ratios, 2.0),
+        "less so when soft": inside(soft_ratios / hard_ratios, high=0.9)}
+
+
+def k8(*_):
+    return "These runs have no device loop; `lmdbench-study roles` times it in a closed loop (claim-regions.md).", {}
+
+
+def k9(*runs):
+    def look(result):
+        improved, triangles = result.method("improved"), result.triangles(smallest=True)
+        samples, p99 = improved.times("local_update_time"), improved.number("local_update_p99_s")
+        return (f"local update 99th percentile {p99 * 1e3:.3f} ms ({1e-3 / p99:.0f} times the rate of 1 kHz), {100 * np.mean(samples > 1e-3):.3f} % of "
+                f"updates above 1 ms; meshes of at least {triangles:,} triangles {errors(result)}"), {
+            "over 10,000 triangles a mesh": triangles > 10_000,
+            "above 1 kHz": inside(np.quantile(samples[:, result.in_contact()], 0.99, axis=1), high=1e-3)}
+
+    return of_each(runs, look)
+
+
+def k10(*runs):
+    parts, texts = {}, []
+    for result in runs:
+        original = result.method("original")
+        if truth_of(original) is None:
+            continue
+        near = 1 - original.number("recall_adjacent")
+        texts.append(f"{result.name} (dense): the original misses {100 * (1 - original.number('recall')):.1f} % of the true LMDs, "
+                     f"{100 * near:.1f} % when a neighbouring feature counts")
+        parts[f"{result.name}: pairs are rarely missed on a dense mesh"] = near <= 0.05
+    return "; ".join(texts) + "." if parts else "The results have no truth probe.", parts, "as far as measured; no result on large or unequal triangles was given"
