@@ -334,19 +334,19 @@ TEST(PartsOverRegion, AlongABorderItIsWholeAndBesideItNothing) {
 TEST(FacesAt, AreClosedAtTheReach) {
   ShapeScene scene(slits(), slits());
   const ShapePair pair = scene.at(Pose{});
-  const auto holds = [&](double x, double y, double reach) {
-    return !for_each_face_at(pair.fixed, 0, {x, y, 0.0}, reach, [](std::int32_t) { return false; });
+  const auto holds = [&](double x, double y, double within) {
+    return !for_each_face_at(pair.fixed, 0, {x, y, 0.0}, within, [](std::int32_t) { return false; });
   };
   const double right = 4.5 * 0.125;
   EXPECT_TRUE(holds(0.0, 0.0, 0.0));
   EXPECT_FALSE(holds(0.125, 0.0, 1e-12)) << "amid a slit";
   EXPECT_TRUE(holds(0.0625, 0.0, 1e-15)) << "on its border";
   EXPECT_TRUE(holds(right, 0.1, 0.0));
-  for (const double reach : {1e-13, 1e-9, 1e-3}) {
-    EXPECT_TRUE(holds(right + 0.5 * reach, 0.1, reach));
-    EXPECT_FALSE(holds(right + 2.0 * reach, 0.1, reach));
-    EXPECT_TRUE(holds(0.0625 + 0.5 * reach, 0.1, reach));
-    EXPECT_FALSE(holds(0.0625 + 2.0 * reach, 0.1, reach));
+  for (const double within : {1e-13, 1e-9, 1e-3}) {
+    EXPECT_TRUE(holds(right + 0.5 * within, 0.1, within));
+    EXPECT_FALSE(holds(right + 2.0 * within, 0.1, within));
+    EXPECT_TRUE(holds(0.0625 + 0.5 * within, 0.1, within));
+    EXPECT_FALSE(holds(0.0625 + 2.0 * within, 0.1, within));
   }
 }
 
@@ -358,7 +358,7 @@ TEST(RegionShape, SaysClearlyInsideAndOutsideOnlyWhereItIs) {
     const ShapePair pair = scene.at(Pose{});
     const std::int32_t region = pair.fixed.shape.region_of(0);
     const RegionShape& shape = *pair.fixed.shape.shapes.of_region(region);
-    const double reach = 1e-3;
+    const double within = 1e-3;
     const auto place = [&](const Vec2& x) { return shape.frame.lifted(x); };
     const auto holds = [&](const Vec2& x, double spare) {
       return !for_each_face_at(pair.fixed, region, place(x), spare, [](std::int32_t) { return false; });
@@ -367,12 +367,12 @@ TEST(RegionShape, SaysClearlyInsideAndOutsideOnlyWhereItIs) {
       return std::ranges::any_of(shape.sides, [&](const PolygonSide& side) {
         const Vec2 along = side.to - side.from;
         const double s = std::clamp((x - side.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-        return (side.from + s * along - x).norm() <= reach;
+        return (side.from + s * along - x).norm() <= within;
       });
     };
     for (int k = 0; k < 4000; ++k) {
       const Vec2 x(1.4 * uniform(random) - 0.7, 1.4 * uniform(random) - 0.7);
-      const std::optional<bool> clear = shape.clearly_holds(x, reach);
+      const std::optional<bool> clear = shape.clearly_holds(x, within);
       if (!clear) {
         ++unclear;
         continue;
@@ -381,7 +381,7 @@ TEST(RegionShape, SaysClearlyInsideAndOutsideOnlyWhereItIs) {
       EXPECT_EQ(*clear, holds(x, 1e-12));
       EXPECT_FALSE(is_near_border(x) && *clear);
       const Vec2 y = x + 0.3 * Vec2(uniform(random) - 0.5, uniform(random) - 0.5);
-      if (!shape.clearly_holds_segment(x, y, reach)) continue;
+      if (!shape.clearly_holds_segment(x, y, within)) continue;
       for (int i = 0; i <= 50; ++i)
         EXPECT_TRUE(holds(x + i / 50.0 * (y - x), 1e-12) && !is_near_border(x + i / 50.0 * (y - x)));
     }

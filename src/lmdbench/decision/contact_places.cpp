@@ -19,7 +19,7 @@ constexpr std::size_t PIECES_WITHOUT_GRID = 8;
 
 }  // namespace
 
-Eigen::AlignedBox3d ContactPlaces::box_of(const Contact& contact, double reach) const {
+Eigen::AlignedBox3d ContactPlaces::box_of(const Contact& contact, double within) const {
   Eigen::AlignedBox3d box;
   if (contact.dimension == 0) {
     box.extend(contact.point_fixed);
@@ -31,7 +31,7 @@ Eigen::AlignedBox3d ContactPlaces::box_of(const Contact& contact, double reach) 
     for (const ConvexPolygon& piece : set_.pieces_of(contact))
       for (const Vec2& corner : piece.corners) box.extend(Vec3(frame.lifted(corner) + lift));
   }
-  const Vec3 margin = Vec3::Constant(reach);
+  const Vec3 margin = Vec3::Constant(within);
   return {box.min() - margin, box.max() + margin};
 }
 
@@ -79,7 +79,7 @@ bool ContactPlaces::have_one_direction(const Contact& a, const Contact& b, doubl
 
 /// Whether `fits` holds for a piece of a polygon near a box.
 template <class Fits>
-bool ContactPlaces::any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits) {
+bool ContactPlaces::any_piece_near(const Contact& contact, const Box2& box, double within, Fits&& fits) {
   const auto pieces = set_.pieces_of(contact);
   if (pieces.size() <= PIECES_WITHOUT_GRID) return std::ranges::any_of(pieces, fits);
   // Each corner and chain of a large contact asks.
@@ -90,36 +90,36 @@ bool ContactPlaces::any_piece_near(const Contact& contact, const Box2& box, doub
     for (const ConvexPolygon& piece : pieces) boxes.push_back(piece.box());
     grid.emplace(boxes);
   }
-  return !grid->for_each_near(box, reach,
+  return !grid->for_each_near(box, within,
                               [&](std::int32_t i) { return !fits(pieces[static_cast<std::size_t>(i)]); });
 }
 
 bool ContactPlaces::meet(const Contact& a, const Contact& b) {
   if (a.dimension < b.dimension) return meet(b, a);
-  const double reach = tolerance_.known;
+  const double within = tolerance_.known;
   if (a.dimension == 0)
-    return (a.point_moving - b.point_moving).norm() <= reach &&
-           (a.point_fixed - b.point_fixed).norm() <= reach;
+    return (a.point_moving - b.point_moving).norm() <= within &&
+           (a.point_fixed - b.point_fixed).norm() <= within;
   if (a.dimension == 1) {
     const auto are_near = [&](const std::array<Vec3, 2>& own, const std::array<Vec3, 2>& ends,
                               const Vec3& point) {
       const Segment segment{own[0], own[1]};
       return b.dimension == 0
-                 ? (point_segment_distance(point, segment).point - point).norm() <= reach
-                 : segment_distance(segment, {ends[0], ends[1]}).squared_distance <= reach * reach;
+                 ? (point_segment_distance(point, segment).point - point).norm() <= within
+                 : segment_distance(segment, {ends[0], ends[1]}).squared_distance <= within * within;
     };
     return are_near(a.ends_moving, b.ends_moving, b.point_moving) &&
            are_near(a.ends_fixed, b.ends_fixed, b.point_fixed);
   }
   const PlanarFrame& frame = set_.frames[a.frame];
   const auto touches = [&](const ConvexPolygon& other) {
-    return any_piece_near(a, other.box(), reach,
-                          [&](const ConvexPolygon& piece) { return piece.touches(other, reach); });
+    return any_piece_near(a, other.box(), within,
+                          [&](const ConvexPolygon& piece) { return piece.touches(other, within); });
   };
   const auto holds = [&](const Vec2& x) {
     Box2 box;
     box.add(x);
-    return any_piece_near(a, box, reach, [&](const ConvexPolygon& piece) { return piece.holds(x, reach); });
+    return any_piece_near(a, box, within, [&](const ConvexPolygon& piece) { return piece.holds(x, within); });
   };
   const auto meets = [&](const Vec3& point, const std::array<Vec3, 2>& ends, const Vec2& shift) {
     if (b.dimension == 0) return holds(frame.flat(point));
@@ -136,7 +136,7 @@ bool ContactPlaces::meet(const Contact& a, const Contact& b) {
   // Both sides of `a` lie over each other along its normal; those of `b` are shifted by `apart`.
   const Vec2 apart = frame.flat(b.point_moving) - frame.flat(b.point_fixed);
   return meets(b.point_fixed, b.ends_fixed, Vec2::Zero()) &&
-         (apart.norm() <= reach || meets(b.point_moving, b.ends_moving, apart));
+         (apart.norm() <= within || meets(b.point_moving, b.ends_moving, apart));
 }
 
 }  // namespace lmdbench

@@ -26,8 +26,8 @@ class ContactPlaces {
   ContactPlaces(const ShapePair& pair, const ContactSet& set, std::pmr::memory_resource& memory)
       : tolerance_(pair.tolerance), set_(set), grids_(&memory) {}
 
-  /// Box of a contact's place on the fixed mesh, wider by `reach` [m]; world.
-  Eigen::AlignedBox3d box_of(const Contact& contact, double reach) const;
+  /// Box of a contact's place on the fixed mesh, wider by `within` [m]; world.
+  Eigen::AlignedBox3d box_of(const Contact& contact, double within) const;
 
   /// The point of a contact's place that is nearest to a point q of the fixed mesh in the plane of
   /// contact; world. It lies on the contact's features, as a centroid need not. Parts of one
@@ -51,7 +51,7 @@ class ContactPlaces {
   double fall_of_farther(const Contact& a, const Contact& b, double way) const;
 
   template <class Fits>
-  bool any_piece_near(const Contact& contact, const Box2& box, double reach, Fits&& fits);
+  bool any_piece_near(const Contact& contact, const Box2& box, double within, Fits&& fits);
 
   const ContactTolerance& tolerance_;
   const ContactSet& set_;

@@ -276,13 +276,13 @@ class Decision {
   /// Whether a point of a region's plane is on it, and no chain or corner there leads down.
   bool region_admits(const ShapeSide& side, const Vec3& p_S, const Vec3& n_W, double distance) const {
     const std::int32_t region = feature_of(side).index;
-    const double reach = tolerance_.rounding;
+    const double rounding = tolerance_.rounding;
     if (const RegionShape* shape = side.shape.shapes.of_region(region))
-      if (const auto clear = shape->clearly_holds(shape->frame.flat(p_S), CLEAR_ROUNDINGS * reach))
+      if (const auto clear = shape->clearly_holds(shape->frame.flat(p_S), CLEAR_ROUNDINGS * rounding))
         return *clear;
     const PolarSlack slack = way_down(distance);
     bool holds = false;
-    const bool some_lead_down = !for_each_face_at(side, region, p_S, reach, [&](std::int32_t face) {
+    const bool some_lead_down = !for_each_face_at(side, region, p_S, rounding, [&](std::int32_t face) {
       holds = true;
       const auto& edges = side.surface.adjacency.triangle_edges[static_cast<std::size_t>(face)];
       const bool chain_does = std::ranges::any_of(edges, [&](std::int32_t e) {
@@ -291,11 +291,11 @@ class Decision {
         const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(e)];
         const Vec3 nearest =
             point_segment_distance(p_S, {side.vertex_S(ends[0]), side.vertex_S(ends[1])}).point;
-        return (nearest - p_S).norm() <= reach && leads_down(side, {FeatureKind::EDGE, chain}, n_W, slack);
+        return (nearest - p_S).norm() <= rounding && leads_down(side, {FeatureKind::EDGE, chain}, n_W, slack);
       });
       const auto& corners = side.surface.mesh.triangles[static_cast<std::size_t>(face)];
       return !chain_does && std::ranges::none_of(corners, [&](std::int32_t v) {
-        return side.shape.is_corner(v) && (side.vertex_S(v) - p_S).norm() <= reach &&
+        return side.shape.is_corner(v) && (side.vertex_S(v) - p_S).norm() <= rounding &&
                leads_down(side, {FeatureKind::VERTEX, v}, n_W, slack);
       });
     });

@@ -75,11 +75,11 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
                                    const std::function<bool(const Contact&)>& visit) {
   const auto of_moving = star_of(pair_.moving, crossing.triangle_moving, at_moving_);
   const auto of_fixed = star_of(pair_.fixed, crossing.triangle_fixed, at_fixed_);
-  const double reach = crossing.dimension == 1   ? 0.5 * crossing.measure
-                       : crossing.dimension == 2 ? crossing_reach(pair_, crossing)
-                                                 : 0.0;
+  const double half_extent = crossing.dimension == 1   ? 0.5 * crossing.measure
+                             : crossing.dimension == 2 ? crossing_reach(pair_, crossing)
+                                                       : 0.0;
   const auto goes_on = [&](const Entry& entry) {
-    const Vec3 margin = Vec3::Constant(reach);
+    const Vec3 margin = Vec3::Constant(half_extent);
     const Eigen::AlignedBox3d box(entry.box_W.min() - margin, entry.box_W.max() + margin);
     return !box.contains(crossing.point) || visit(*entry.contact);
   };

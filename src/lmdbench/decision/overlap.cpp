@@ -53,11 +53,11 @@ class PlacedRegion {
   }
 
   /// Indices of the pieces near some points.
-  std::vector<std::int32_t> pieces_near(std::span<const PolygonSide> outline, double reach) const {
+  std::vector<std::int32_t> pieces_near(std::span<const PolygonSide> outline, double within) const {
     Box2 box;
     for (const PolygonSide& side : outline) box.add(turn_back_ * (side.from - origin_));
     std::vector<std::int32_t> near;
-    shape_->piece_grid.for_each_near(box, reach, [&](std::int32_t index) {
+    shape_->piece_grid.for_each_near(box, within, [&](std::int32_t index) {
       near.push_back(index);
       return true;
     });
@@ -178,16 +178,16 @@ SegmentParts parts_over_region(const Vec3& begin_S, const Vec3& end_S, const Sha
   return parts;
 }
 
-bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const Vec3& p_S, double reach) {
+bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const Vec3& p_S, double within) {
   const Triangle t = side.surface.mesh.triangle(face);
   // Nearly all points asked for lie beyond a side.
   if ((t[1] - t[0]).cross(t[2] - t[0]).dot(n_S) > 0.0)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 along = t[(k + 1) % 3] - t[k];
       const double beyond = along.cross(t[k] - p_S).dot(n_S);
-      if (beyond > 0.0 && beyond * beyond > reach * reach * along.squaredNorm()) return false;
+      if (beyond > 0.0 && beyond * beyond > within * within * along.squaredNorm()) return false;
     }
-  return (point_triangle_distance(p_S, t).point - p_S).squaredNorm() <= reach * reach;
+  return (point_triangle_distance(p_S, t).point - p_S).squaredNorm() <= within * within;
 }
 
 }  // namespace lmdbench

@@ -42,24 +42,24 @@ using SegmentParts = boost::container::small_vector<SegmentPart, 4>;
 SegmentParts parts_over_region(const Vec3& begin_S, const Vec3& end_S, const ShapeSide& side,
                                std::int32_t region, double rounding);
 
-/// Whether a point of the plane of a face lies in it, or beside it by no more than `reach` [m].
+/// Whether a point of the plane of a face lies in it, or beside it by no more than `within` [m].
 /// @param n_S  the plane's normal; frame of the mesh, as p_S is
-bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const Vec3& p_S, double reach);
+bool is_on_face(const ShapeSide& side, const Vec3& n_S, std::int32_t face, const Vec3& p_S, double within);
 
 /// Calls visit(face) for a region's faces that hold a point of its plane (is_on_face), until false.
 /// @return whether visit never returned false
 template <class Visit>
-bool for_each_face_at(const ShapeSide& side, std::int32_t region, const Vec3& p_S, double reach,
+bool for_each_face_at(const ShapeSide& side, std::int32_t region, const Vec3& p_S, double within,
                       Visit&& visit) {
   const Vec3& n = side.shape.regions.planes[static_cast<std::size_t>(region)].normal;
   const auto look_at = [&](std::int32_t face) {
-    return !is_on_face(side, n, face, p_S, reach) || visit(face);
+    return !is_on_face(side, n, face, p_S, within) || visit(face);
   };
   const RegionShape* shape = side.shape.shapes.of_region(region);
   if (shape == nullptr) return look_at(side.shape.lead_of_region(region));
   Box2 box;
   box.add(shape->frame.flat(p_S));
-  return side.shape.for_each_face_near(region, box, reach, look_at);
+  return side.shape.for_each_face_near(region, box, within, look_at);
 }
 
 }  // namespace lmdbench

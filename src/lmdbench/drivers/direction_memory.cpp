@@ -10,13 +10,13 @@ namespace lmdbench {
 std::int64_t DirectionMemory::complete(LmdSet& lmds) {
   LMDBENCH_EXPECTS(cutoff_ > 0.0, "a cutoff that was not checked");
   std::int64_t without_direction = 0;
-  const double reach = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
+  const double limit = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
   known_.clear();
   for (Lmd& lmd : lmds) {
     // A method may have kept the direction; distance 0 tells that it is not this frame's.
     if (!(lmd.distance > 0.0)) ++without_direction;
     if (lmd.direction.hasNaN()) {
-      double nearest_squared = reach * reach;
+      double nearest_squared = limit * limit;
       for (const Lmd& earlier : last_) {
         if (earlier.fixed_body != lmd.fixed_body) continue;
         if (same_feature_pair(earlier, lmd)) {

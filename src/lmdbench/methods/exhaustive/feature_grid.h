@@ -30,8 +30,8 @@ class FeatureGrid {
   void for_each_near(const Eigen::AlignedBox3d& box, double distance, Visitor&& visit) {
     if (boxes_.empty() || bounds_.squaredExteriorDistance(box) > distance * distance) return;
     ++query_;
-    const Vec3 reach = Vec3::Constant(distance);
-    const Eigen::Array3i first = cell_of(box.min() - reach), last = cell_of(box.max() + reach);
+    const Vec3 margin = Vec3::Constant(distance);
+    const Eigen::Array3i first = cell_of(box.min() - margin), last = cell_of(box.max() + margin);
     for (int z = first.z(); z <= last.z(); ++z)
       for (int y = first.y(); y <= last.y(); ++y)
         for (int x = first.x(); x <= last.x(); ++x)

@@ -288,12 +288,12 @@ struct TouchingPairs::Half {
                                   : gap_to(plane, triangle_of(other.side, other.lead));
   }
   /// The faces that are near to points of the world.
-  void find_faces_near(std::span<const Vec3> points, double reach, std::vector<std::int32_t>& faces) const {
+  void find_faces_near(std::span<const Vec3> points, double within, std::vector<std::int32_t>& faces) const {
     if (shape == nullptr) return faces.assign(1, lead);
     Box2 box;
     for (const Vec3& p : points) box.add(shape->frame.flat(side.point_to_surface(p)));
     faces.clear();
-    side.shape.for_each_face_near(region, box, reach, [&](std::int32_t t) {
+    side.shape.for_each_face_near(region, box, within, [&](std::int32_t t) {
       faces.push_back(t);
       return true;
     });
