@@ -17,30 +17,29 @@ namespace lmdbench {
 
 namespace {
 
-/// Distance, relative to the coordinates, at or below which a direction between two points is dominated by their rounding:
-/// above it rounding / distance is below POLAR_SLACK.
+/// Relative to the coordinates: up to this distance rounding dominates a direction between two
+/// points; above it rounding / distance is below POLAR_SLACK.
 constexpr double RELATIVE_TOUCH = 2e-8;
-/// PairFilter::margin: above what the definition grants a direction at half the touch distance (128 * 2.2e-16 / 1e-8).
+/// PairFilter::margin: above what is granted at half the touch distance (128 * 2.2e-16 / 1e-8).
 constexpr double FILTER_MARGIN = 1e-5;
-/// PairFilter::tiny relative to the coordinates: roundings of such a length's ends are well under the margin.
+/// PairFilter::tiny relative to the coordinates: of such a length rounding is well under the
+/// margin.
 constexpr double RELATIVE_TINY = 1e-8;
-/// Motions of a frame that are larger than this many cutoffs are jumps: next to nothing would be kept.
+/// A motion of more cutoffs in a frame is a jump: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
 
-/// Pairs between the one that is decided and the one whose data is fetched; twice that for the indices,
-/// without which the rest is not known.
+/// Vertices are fetched so many pairs ahead, indices, which are needed for that, twice as many.
 constexpr std::size_t FETCH_DISTANCE = 4;
 
-/// Up to which distance pairs are looked for. What meshes are known to grows and shrinks with meshes that deform; rounded up to a power
-/// of two it is the same in neighbouring frames, so that what was kept with it stays valid.
+/// The reach. The tolerance of meshes that deform changes with them: rounded up to a power of two
+/// it is the same in neighbouring frames, so that what was kept stays valid.
 double kept_reach(const ContactTolerance& tolerance, const WideHierarchy& moving,
                   const WideHierarchy& fixed) {
   if (moving.changes.now == 0 && fixed.changes.now == 0) return tolerance.reach;
   return tolerance.cutoff + 2.0 * std::exp2(std::ceil(std::log2(tolerance.known)));
 }
 
-/// Brings a feature's indices near; a mesh that does not fit into a processor's cache
-/// is slow to follow otherwise.
+/// Fetches a feature's indices: meshes larger than the cache are slow otherwise.
 void fetch_indices(const Surface& surface, const FeatureId& feature) {
   const auto index = static_cast<std::size_t>(feature.index);
   switch (feature.kind) {
@@ -57,7 +56,7 @@ void fetch_indices(const Surface& surface, const FeatureId& feature) {
   }
 }
 
-/// Brings its vertices near, or those round it.
+/// Fetches its vertices; of a vertex the list of its triangles.
 void fetch_vertices(const Surface& surface, const FeatureId& feature) {
   const auto index = static_cast<std::size_t>(feature.index);
   const auto fetch = [&](std::int32_t vertex) {
@@ -76,7 +75,7 @@ void fetch_vertices(const Surface& surface, const FeatureId& feature) {
   }
 }
 
-/// What the filter's rejections are checked against.
+/// For the contract of the filter.
 bool has_contact(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed) {
   ContactSet contacts;
   decide(pair, on_moving, on_fixed, contacts);
@@ -85,26 +84,26 @@ bool has_contact(const ShapePair& pair, const FeatureId& on_moving, const Featur
 
 }  // namespace
 
-/// What a fixed body's search works with in a frame.
+/// Input and results of a frame.
 struct Certified::Frame {
   const WideHierarchy& moving;
   const WideHierarchy& fixed;
   const ShapePair& pair;
   const PairFilter& filter;
   const WideQuery& query;
-  double search_distance;  ///< Of what is looked for: the larger of reach and touch [m].
+  double search_distance;  ///< The larger of reach and touch [m].
   TouchingPairs::Frame touching;
   ContactSet& contacts;
   WorkCounters& counters;
   const SignedPair* signs = nullptr;  ///< Where critical pairs are looked for.
   WideCounters work{};
 
-  /// Asks the definition where the filter does not say no; returns what the answer stands.
+  /// Asks the definition where the filter does not reject. @return the answer's certificate
   Certificate decide_pair(const WidePair& candidate, double lever_arm) {
     const FeatureId on_moving = candidate.a.feature_id(), on_fixed = candidate.b.feature_id();
     ++counters[Counter::LEAF_PAIRS];
     if (signs != nullptr) {
-      // An index has no certificate: what bounds cannot reject is asked in every frame.
+      // An index has no certificate: pairs that bounds cannot reject are asked in every frame.
       if (filter(on_moving, on_fixed, lever_arm).verdict == PairVerdict::NO_LMD) {
         signs->append(on_moving, on_fixed, contacts);
       } else {
@@ -145,13 +144,13 @@ Certified::Certified(Scene of_pair, const CertifiedOptions& options, WideKernel 
       target_(options.kernel),
       kernel_(kernel) {
   const UseVectorTarget refused_here_if_not_available(target_);
-  // Without a cutoff that means something there is nothing to save, and lever arms would be without bound.
+  // A cutoff beyond the meshes' size saves nothing, and would make lever arms too long.
   coherent_ =
       coherent_ && scene_.cutoff <= 10.0 * std::max(hierarchy_moving_.radius, fixed_.hierarchy.radius);
 }
 
 /// Brings the forecast to a frame.
-/// @return whether it says anything: the pose did not jump
+/// @return whether it is one: the pose did not jump
 bool Certified::follow_motion(const RigidTransform& X_WM, double touch, double search_distance) {
   if (!coherent_) return false;
   RigidTransform X_WH = X_WM;
@@ -161,14 +160,14 @@ bool Certified::follow_motion(const RigidTransform& X_WM, double touch, double s
     motion_.advance(X_WH, 1e-3 * touch);
     goes_on = motion_.motion() <= LARGEST_PACE * scene_.cutoff;
   }
-  // A jump must not be taken for a motion that goes on.
+  // A jump must not be extrapolated.
   if (!goes_on) motion_.reset(X_WH, hierarchy_moving_.radius, search_distance);
   has_last_ = true;
   touch_ = touch;
   return goes_on;
 }
 
-/// What is kept is in the frames of the hierarchies; where these change, it says nothing.
+/// What is kept is in the frames of the hierarchies; where these change it is dropped.
 void Certified::follow_deformations() {
   if (hierarchy_moving_.changes.frame > seen_frame_) {
     seen_frame_ = hierarchy_moving_.changes.now;
@@ -179,7 +178,7 @@ void Certified::follow_deformations() {
 }
 
 void Certified::enumerate_from_scratch(Frame& frame) {
-  // Of all methods of a thread: the thousand pairs of a pile are searched one after another.
+  // One a thread: it searches the thousand pairs of a pile one after another.
   thread_local WideScratch scratch;
   find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch, frame.work);
   const auto fetch = [&](std::size_t k, const auto& fetch_part) {
@@ -242,7 +241,7 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const double coordinates = std::max(
       transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + hierarchy_moving_.radius, of_fixed);
   const double where_anything_is_near = of_fixed + 2.0 * hierarchy_moving_.radius + scene_.cutoff;
-  // The same wherever something can be found, so that what was kept with it stays valid.
+  // The same at all poses at which anything is near, so that what was kept stays valid.
   const double touch =
       RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(std::max(coordinates, where_anything_is_near))));
   const ShapeSide moving{scene_.moving->surface(), shape_moving_, transform, true};

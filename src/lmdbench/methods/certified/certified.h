@@ -24,29 +24,27 @@ class SignedFeatures;
 
 const MethodDescription& certified_method();
 
-/// The third algorithm: the exact and complete LMD set in every frame, without a second rate. In the order in which one reads it:
-/// `layout/` (what a hierarchy is), `build/` (how it is made and brought to a mesh that deforms), `traverse/` (how two are descended),
-/// `decide/` (what happens to the pairs that are left), `keep/` (what stays from frame to frame), this file.
+/// Finds the exact and complete LMD set in every frame, at one rate.
 ///
-/// 1. *enumerate*: both meshes have a wide hierarchy over the features of their shapes (wide_hierarchy.h). Descending both
-///    finds every pair of features that bounds cannot reject (wide_traversal.h); a closed-form test in double precision
-///    rejects nearly all of those (filter.h).
-/// 2. *decide*: the definition is asked for what is left (decision/decide.h), and for the corners of triangles that may touch
-///    (touching_pairs.h), which also says what intersects;
-/// 3. *join*: what the pairs say of one place becomes one LMD (decision/join_contacts.h).
+/// 1. *Enumerate.* Both meshes have a wide hierarchy over the features of their shapes (layout/,
+///    build/). Both are descended together; what is left is every pair of features that bounds
+///    cannot reject (traverse/wide_traversal.h). A closed-form test in double precision rejects
+///    nearly all of these pairs (decide/filter.h).
+/// 2. *Decide.* The definition is asked for the other pairs (decision/decide.h), and for corners
+///    and chains of triangles that may touch. The latter also tells which triangles intersect
+///    (decide/touching_pairs.h).
+/// 3. *Join.* The contacts of one place become one LMD (decision/join_contacts.h).
 ///
-/// `exhaustive` asks the same definition for every pair near enough and joins in the same way. So the two sets differ only
-/// where a bound is wrong: PROOF.md, bound by bound.
+/// No LMD is missed: `exhaustive` asks the same definition for all pairs near enough and joins with
+/// the same function, so the sets differ only where a bound is wrong; PROOF.md proves every bound.
 ///
-/// Frame coherence: where the pose moves by little, step 1 is not made anew. Every test of the last frames is kept with the
-/// number of frames that it stands if the motion goes on as forecast (wide_lifetime.h), and so are the answers of the filter.
-/// What a frame does again is what has run out, and whatever the motion, as it turns out, has deviated too far for
-/// (motion_forecast.h); steps 2 and 3 are made in every frame. Where the pose jumps, and where next to nothing is kept
-/// (coherence_policy.h), the frame is searched from scratch. Where a mesh deforms, what was kept of the nodes that changed is made
-/// again (TraversalFront::follow). The set is the same either way; the work counters tell what was done.
+/// From frame to frame (keep/) step 1 reuses its tests and the filter's answers: each is valid for
+/// some frames if the motion goes on as forecast (wide_lifetime.h). A frame repeats those that
+/// have run out, and those for which the motion deviates too far (motion_forecast.h). A frame is
+/// searched from scratch where the pose jumps or little is kept (coherence_policy.h). Where a mesh
+/// deforms, tests of nodes that changed are repeated (TraversalFront::follow). The set is the same.
 class Certified : public Method {
  public:
-  /// What it counts.
   enum class Counter : std::uint8_t {
     NODE_PAIRS,
     REJECTED_G1,
@@ -67,18 +65,18 @@ class Certified : public Method {
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     search(X_WM, lmds, counters);
   }
-  /// The same three steps over hierarchies that own every feature with an index (hierarchy/signed_hierarchy.h); what is kept from
-  /// frame to frame is kept apart from `search`.
+  /// The same steps over hierarchies that own every feature with an index (CRITICAL.md,
+  /// build/signed_hierarchy.h). It keeps tests of its own from frame to frame.
   void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override;
 
-  /// Calls visit(pair) for every pair of triangles that shared a point at the last pose; some more than once.
+  /// Calls visit(pair) for every pair of triangles that intersect at the last pose; some twice.
   template <class Visit>
   void for_each_intersecting_pair(Visit&& visit) const {
     for (const CrossingPair& pair : crossing_pairs_) visit(pair);
   }
 
  private:
-  /// The fixed body, what is prepared for it and what is kept of the pair.
+  /// The fixed body, its prepared data and what is kept of the pair.
   struct FixedBody {
     const Surface& surface;
     const ShapeComplex& shape;
@@ -87,7 +85,7 @@ class Certified : public Method {
     TraversalFront front;         ///< Empty where nothing is kept.
     CoherencePolicy policy;
     std::uint32_t seen_moving = 0, seen_fixed = 0;  ///< Deformations that the front knows.
-    double search_distance = 0.0;                   ///< That its tests were made for [m].
+    double search_distance = 0.0;                   ///< For which its tests were made [m].
   };
   struct Frame;
 
@@ -97,7 +95,8 @@ class Certified : public Method {
   template <class Join>
   void find(const Pose& X_WM, WorkCounters& counters, Join&& join);
 
-  // Steps 1 and 2. No other name begins with `search`: instructions are counted by that name (scripts/tuned_constants.py).
+  // Steps 1 and 2. Instructions are counted by names that begin with `search`
+  // (scripts/tuned_constants.py): no other name does.
   bool follow_motion(const RigidTransform& X_WM, double touch, double search_distance);
   void follow_deformations();
   void enumerate_from_scratch(Frame& frame);
@@ -115,7 +114,7 @@ class Certified : public Method {
   MotionForecast motion_;
   bool has_last_ = false;         ///< The forecast knows the last frame.
   double touch_ = 0.0;            ///< Of the last frame [m].
-  std::uint32_t seen_frame_ = 0;  ///< Deformation of the moving hierarchy after which the forecast began.
+  std::uint32_t seen_frame_ = 0;  ///< Deformation of the moving mesh before the forecast began.
 
   ContactSet contacts_;
   std::vector<Intersection> intersections_;
@@ -123,7 +122,7 @@ class Certified : public Method {
   TouchingPairs touching_;
   std::vector<WidePair> touching_pairs_;
   std::vector<std::uint32_t> touching_leaves_;  ///< Of touching_pairs_, in the front.
-  std::unique_ptr<Certified> critical_;         ///< Looks for critical pairs; made when they are asked for.
+  std::unique_ptr<Certified> critical_;         ///< Of find_critical; made when first asked for.
 };
 
 }  // namespace lmdbench

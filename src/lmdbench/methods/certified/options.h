@@ -9,7 +9,7 @@ namespace lmdbench {
 /// Free choices of `certified`. Members are called as in experiment files.
 struct CertifiedOptions {
   bool frame_coherence = true;  ///< Reuse the last frames' tests; the set is the same either way.
-  VectorTarget kernel = VectorTarget::BEST;  ///< Instruction set; the set of LMDs is the same with each.
+  VectorTarget kernel = VectorTarget::BEST;  ///< Instruction set; the LMDs are the same with each.
 };
 
 }  // namespace lmdbench

@@ -8,7 +8,7 @@
 namespace lmdbench {
 namespace {
 
-/// What the processor has. Highway asks the processor anew at every call, which traps in a virtual machine: 30 us.
+/// Of the processor. Highway asks it anew at every call, which in a virtual machine takes 30 us.
 std::int64_t supported_targets() {
   static const std::int64_t targets = hwy::SupportedTargets();
   return targets;
@@ -33,7 +33,7 @@ std::int64_t mask_of(VectorTarget target) {
 }  // namespace
 
 bool is_available(VectorTarget target) {
-  // Of its own accord Highway names the plain form for no processor.
+  // Highway never lists the plain form as supported.
   return (mask_of(target) & HWY_TARGETS & (supported_targets() | HWY_SCALAR | HWY_EMU128)) != 0;
 }
 

@@ -6,7 +6,7 @@
 
 namespace lmdbench {
 
-/// Instruction set of the vectorised kernels (Highway's targets). The sets of LMDs and the counters are the same with each.
+/// Instruction set of the vectorised kernels (Highway's targets). Sets and counters are the same.
 enum class VectorTarget : std::uint8_t {
   BEST,    ///< The widest that the processor has.
   AVX512,  ///< Eight doubles or sixteen floats at once.
@@ -18,8 +18,8 @@ enum class VectorTarget : std::uint8_t {
 /// Whether the processor has it and this build has kernels for it.
 bool is_available(VectorTarget target);
 
-/// Makes the kernels of the whole process use a target until the end of its life; nothing for BEST. Not to be used while
-/// other threads search: their sets stay right, their times are of whatever target they meet.
+/// Makes all kernels of the process use a target during its life; BEST changes nothing. While other
+/// threads search it must not be used: their sets stay right, their times are of either target.
 class UseVectorTarget {
  public:
   /// @throws EnvironmentError when the target is not available

@@ -14,19 +14,19 @@ namespace {
 
 /// Determinants of three unit wings, see is_clear_saddle.
 constexpr double LEAST_DETERMINANT = 1e-3;
-/// Of more neighbours only the first are looked at.
+/// Of more neighbours only the first are tried.
 constexpr std::size_t MOST_NEIGHBOURS = 10;
-/// Sine of the angle at the vertex of a triangle, and height of a neighbour below a triangle's plane over its distance, from which
-/// on they are clear: planes that cross at that angle and are relaxed by the slack cross at most 2 / LEAST_SINE slacks, 2e-5, away,
-/// so which planes bound the cone is not a matter of the slack.
+/// A triangle is clear from this sine of its angle at the vertex on, a neighbour from this height
+/// below its plane over its distance. Such planes, relaxed by the slack, cross at most 2 /
+/// LEAST_SINE slacks, 2e-5, away: so the slack does not decide which planes bound the cone.
 constexpr double LEAST_SINE = 0.2, LEAST_DEPTH = 1e-4;
 
 const Vec3& position(const Surface& surface, std::int32_t vertex) {
   return surface.mesh.vertices[static_cast<std::size_t>(vertex)];
 }
 
-/// The signed determinants of three of four vectors, in the signs that are all the same where they hold the origin between them,
-/// each squared and over the squared lengths; 0 where the signs differ. The least of the four.
+/// The least of the determinants of three of four unit vectors, squared; 0 where their signs differ
+/// (those that agree where the four hold the origin between them).
 double least_squared_determinant(const std::array<Vec3, 4>& w) {
   const Vec3 ab = w[0].cross(w[1]), cd = w[2].cross(w[3]);
   const std::array<double, 4> of{cd.dot(w[1]), -cd.dot(w[0]), ab.dot(w[3]), -ab.dot(w[2])};

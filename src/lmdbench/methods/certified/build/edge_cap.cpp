@@ -14,19 +14,18 @@ namespace {
 
 /// End directions that are shorter than this before they are made unit are rounding.
 constexpr double LEAST_END = 1e-6;
-/// A constraint that is looser than this (a sine) is dropped; caps of needle-like
-/// triangles get wider, never wrong.
+/// Looser constraints (a sine) are dropped: caps of needle-like triangles get wider, never wrong.
 constexpr double LARGEST_SLACK = 0.1;
-/// Heights of triangles below this part of their length are rounding: such a triangle constrains nothing.
+/// Lower triangles, relative to their length, constrain nothing: their height is rounding.
 constexpr double LEAST_HEIGHT = 1e-12;
 
-/// Bend of an edge that is decided without a look at constraints, as a sine.
+/// Edges that bend by more (a sine) are decided without constraints.
 constexpr double CLEAR_BEND = 1e-3;
-/// Triangles whose length is more than this many heights are left to the constraints too.
+/// Edges of triangles of more than so many heights in length need the constraints too.
 constexpr double FLAT = 10.0;
 
-/// Slack of a triangle's constraint. The first-order test measures n . (x - p) against |x - p|, which is up
-/// to the triangle's size for the height that n . (x - p) is made of.
+/// Slack of a triangle's constraint. The definition compares n . (x - p) with |x - p|, which is up
+/// to the triangle's size, while the constraint's n . (x - p) is of its height.
 double slack_of(double size_per_height) {
   return POLAR_SLACK * (1.0 + 2.0 * size_per_height);
 }
@@ -38,13 +37,13 @@ std::int32_t opposite_corner(const Surface& surface, std::int32_t triangle,
                        [&](std::int32_t corner) { return corner != ends[0] && corner != ends[1]; });
 }
 
-/// What most edges are: two triangles that agree on orientation, neither flat, and a bend beyond all slack.
+/// Most edges: two triangles that agree on orientation, neither flat, and a bend beyond all slack.
 ///
-/// Let a0 and a1 be the unit vectors across the edge into its triangles, n0 and n1 the normals and theta the
-/// angle from a0 over the outer side to a1, so that a1 . n0 = sin(theta). A convex edge's cone is the arc
-/// from n0 to n1. A reflex edge's would be the arc of the inner normals, whose direction nearest to the outer
-/// side is asin(sin(theta / 2)) away from it; sin(theta / 2) >= |sin(theta)| / 2 is more than CLEAR_BEND / 2
-/// = 5e-4, and no slack is more than 5e-5: it is empty.
+/// Let a0 and a1 be the unit vectors across the edge into its triangles, n0 and n1 the normals,
+/// theta the angle from a0 over the outer side to a1, so that a1 . n0 = sin(theta). A convex edge's
+/// cone is the arc from n0 to n1. A reflex edge's would be the arc of the inner normals, which is
+/// asin(sin(theta / 2)) and more away from the outer side; sin(theta / 2) >= |sin(theta)| / 2 is
+/// more than CLEAR_BEND / 2 = 5e-4, and no slack is more than 4.2e-5: it is empty.
 struct ClearEdge {
   bool is_clear = false;
   bool is_convex = false;
@@ -76,8 +75,8 @@ struct ClearEdge {
   }
 };
 
-/// All planes hold the edge's normal plane's directions only: the cone is an arc, its ends are square to the
-/// constraints.
+/// The cone of directions square to the edge that satisfy the constraints: an arc, whose ends are
+/// square to constraints.
 std::optional<PolarCap> cap_of_arc(const Vec3& along, Scratch& work) {
   for (const Constraint& constraint : work.constraints)
     work.extremes.slack = std::max(work.extremes.slack, 2.0 * constraint.slack);
@@ -138,7 +137,7 @@ std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& sh
   const Vec3 from_to = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
                        surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
   if (!(from_to.squaredNorm() > 0.0)) return std::nullopt;
-  // Of a triangle without area the wing is rounding, in a direction that says nothing.
+  // Of a triangle without area the wing is rounding.
   const double least_wing = LEAST_WING * shape.regions.extent;
   shape.for_each_chain_wing(surface, chain, [&](const Vec3& wing) {
     const double depth = wing.norm();
@@ -153,7 +152,8 @@ std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& sh
       const auto normal = [&](std::size_t k) -> const Vec3& {
         return shape.regions.planes[static_cast<std::size_t>(regions[k])].normal;
       };
-      // Of either normal against the other region's wing, whichever that is: its own is square to it.
+      // Of a normal against the other region's wing; its own is square to it, so order does not
+      // matter.
       const double rise = normal(0).dot(work.constraints[0].direction + work.constraints[1].direction);
       if (rise > CLEAR_BEND) return std::nullopt;
       if (rise < -CLEAR_BEND) {

@@ -16,15 +16,14 @@ namespace {
 
 using polar::Constraint, polar::Scratch;
 
-/// Crossings of planes that are closer to parallel than this (a sine) are left out: their neighbours bound
-/// the cone to within the slack.
+/// Crossings of planes closer to parallel than this (a sine) are left out: their neighbours bound
+/// the cone to within the slack (PROOF.md, lemma 4).
 constexpr double LEAST_CROSSING = 1e-6;
-/// Planes whose angle has a larger sine than this cross clearly: most candidates can
-/// be rejected without a root.
+/// Planes at a larger sine cross clearly: most candidates are rejected without a root.
 constexpr double CLEAR_CROSSING = 0.2;
-/// Which of the two crossings x and -x of two planes some constraint rejects for certain. The planes
-/// themselves reject neither. x need not be unit, and is at least CLEAR_CROSSING long; no constraint has more
-/// slack than POLAR_SLACK.
+/// Which of the crossings x and -x of two planes some constraint surely rejects (not those two
+/// planes'). |x| is at least CLEAR_CROSSING and at most 1; no constraint has more slack than
+/// POLAR_SLACK.
 std::array<bool, 2> clearly_rejected(const std::vector<Constraint>& constraints, const Vec3& x) {
   // Planes that cross at such an angle shift their crossing by less than 2 / CLEAR_CROSSING slacks.
   constexpr double LIMIT = (1.0 + 2.0 / CLEAR_CROSSING) * POLAR_SLACK;
@@ -33,7 +32,7 @@ std::array<bool, 2> clearly_rejected(const std::vector<Constraint>& constraints,
     const double along = constraint.direction.dot(x);
     highest = std::max(highest, along);
     lowest = std::min(lowest, along);
-    if (highest > LIMIT && lowest < -LIMIT) break;  // nothing can take that back
+    if (highest > LIMIT && lowest < -LIMIT) break;
   }
   return {highest > LIMIT, -lowest > LIMIT};
 }
@@ -75,10 +74,11 @@ bool find_crossings(Scratch& work) {
 /// Up to so many directions all crossings are tried; of more, those of a subset.
 constexpr std::size_t FEW_DIRECTIONS = 128;
 
-/// Like `find_crossings` (PROOF.md, lemma 5), in time linear in the number of constraints: of many, only the outermost are taken and then
-/// those that the crossings so far violate most, until none is violated beyond twice its slack or there are enough.
-/// `work.constraints` is the subset then. Fewer constraints leave a larger set, so that the cap still holds the
-/// whole cone; it is empty only where the whole is.
+/// Like `find_crossings`, in time linear in the number of constraints (PROOF.md, lemma 5). Of many
+/// only the outermost are taken, and then those that the crossings so far violate most, until none
+/// is violated by more than twice its slack or there are enough. `work.constraints` is the subset
+/// then. Fewer constraints leave a larger set: the cap holds the whole cone, and is empty only
+/// where that is.
 bool find_crossings_of_many(Scratch& work) {
   if (work.constraints.size() <= FEW_DIRECTIONS) return find_crossings(work);
   const std::vector<Constraint> all = std::exchange(work.constraints, {});
@@ -128,8 +128,8 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, 
   }
   if (!find_crossings_of_many(work)) return PolarCap{};
   if (work.extremes.directions.empty()) return std::nullopt;
-  // Saddles are done here, and so are peaks, all of whose directions are outer ones. What lies above every triangle lies on the
-  // side of their mean, which costs more to make where the mesh deforms.
+  // Of saddles and peaks no direction has to be dropped. What lies above every triangle lies on the
+  // side of their mean normal, which costs more to make.
   const auto above_all = [&](const Vec3& direction) {
     return std::ranges::all_of(surface.adjacency.vertex_triangles[vertex], [&](std::int32_t t) {
       const Vec3& normal = surface.face_normals[static_cast<std::size_t>(t)];

@@ -11,15 +11,15 @@ namespace lmdbench::polar {
 
 namespace {
 
-/// How far a direction may stick out of a cone, as a difference of cosines, before the cone grows: far below
-/// the slack that is added, far above rounding.
+/// A cone grows when a direction is outside by more (a difference of cosines): far below the slack
+/// that is added, far above rounding.
 constexpr double RIM_TOLERANCE = 1e-13;
 /// An axis that comes out shorter than this is rounding.
 constexpr double LEAST_AXIS = 1e-9;
 
-/// Axis of the smallest circular cone around directions that a half space holds; not unit. A cone that two or
-/// three directions on its rim carry is tried for, and grown from the one before as a smallest circle is (E.
-/// Welzl, 1991, without the shuffling: there are about five directions).
+/// Axis of the smallest circular cone around directions in a half space; not unit. Two or three
+/// directions on its rim carry it: it is grown as a smallest circle is (E. Welzl, 1991, without the
+/// shuffling: there are about five directions).
 Vec3 axis_around(const std::vector<Vec3>& directions) {
   const auto outside = [](const Vec3& axis, const Vec3& rim, const Vec3& direction) {
     return axis.dot(direction) < axis.dot(rim) - RIM_TOLERANCE * axis.norm();
@@ -58,7 +58,7 @@ std::optional<PolarCap> cap_around(const Extremes& extremes) {
     cosine = std::min(cosine, cap.axis.dot(direction));
     squared_sine = std::max(squared_sine, cap.axis.cross(direction).squaredNorm());
   }
-  // sin and cos of phi + slack, rounded outwards: |d cos|, |d sin| <= slack.
+  // Cosine and sine of phi + slack, rounded outwards.
   const double sine = std::sqrt(squared_sine);
   cap.cosine = cosine - (sine * extremes.slack + 0.5 * extremes.slack * extremes.slack);
   cap.sine = std::min(1.0, sine + extremes.slack);

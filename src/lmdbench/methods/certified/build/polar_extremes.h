@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-/// How polar caps are found; nothing outside polar_cap.cpp, edge_cap.cpp and polar_extremes.cpp needs this.
+/// Used by polar_cap.cpp, edge_cap.cpp, polar_extremes.cpp and clear_vertex.cpp alone.
 namespace lmdbench::polar {
 
 /// n . direction <= slack for unit n.
@@ -19,7 +19,7 @@ struct Constraint {
   double slack;
 };
 
-/// Extreme directions of a polar cone, and what must be added to their spread.
+/// Extreme directions of a polar cone, and the angle [rad] to add to their spread.
 struct Extremes {
   std::vector<Vec3> directions;
   double slack = 0.0;
@@ -31,7 +31,7 @@ struct Scratch {
   Extremes extremes;
 };
 
-/// Emptied.
+/// The thread's, emptied.
 Scratch& scratch();
 
 inline constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
@@ -44,7 +44,7 @@ bool satisfies(const std::vector<Constraint>& constraints, const Vec3& direction
 std::optional<PolarCap> cap_around(const Extremes& extremes);
 
 /// Cap of an edge.
-/// @param least_wing  heights of triangles over the edge up to this say nothing [m]
+/// @param least_wing  triangles of at most this height over the edge are left out [m]
 std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, double least_wing);
 
 /// Cap of a chain of a shape, from its wings and its regions' normals.

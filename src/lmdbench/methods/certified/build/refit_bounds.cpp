@@ -58,8 +58,8 @@ void bound_points(WideNode& node, std::uint32_t lane, std::span<const Vec3> poin
   store_sizes(node, lane, std::sqrt(squared_radius), thickness, !axis.isZero(0.0), rounding);
 }
 
-/// How far a lane's body reaches along a unit direction from its centre: as far as its sphere, or as the rim where its slab cuts the
-/// sphere off.
+/// How far a lane's body extends along a unit direction from its centre: to its sphere, or to the
+/// rim where its slab cuts the sphere off.
 double reach_of_lane(const WideNode& node, std::uint32_t lane, const Vec3& direction) {
   const double radius = static_cast<double>(node.radius[lane]);
   const double thickness = std::min(radius, static_cast<double>(node.thickness[lane]));
@@ -119,7 +119,7 @@ void InnerBounds::collect(Lane& lane, const WideNode& below, const WideHierarchy
   }
 }
 
-/// @param count of the longest list of parts: shorter ones repeat their last
+/// @param count  of the longest list of parts; shorter ones repeat their last
 void InnerBounds::put_caps(std::uint32_t lane, Lane& content, std::size_t count) {
   content.carries_lmd = false;
   content.has_axis = true;
@@ -145,8 +145,8 @@ void InnerBounds::put_caps(std::uint32_t lane, Lane& content, std::size_t count)
   while (last != nullptr && k < count) put(*last);
 }
 
-/// Cone round the cones of a lane's parts about an axis; all directions where it would be wider than 90 degrees, which is not convex
-/// (decision E1).
+/// Cone round the cones of a lane's parts about an axis; all directions from 90 degrees on, where
+/// it is not convex (decision E1).
 PolarCap InnerBounds::cap_about(const Lane& lane, const Vec3& chosen_axis) {
   const Vec3 axis = chosen_axis.normalized();
   double least = 1.0;
@@ -158,7 +158,7 @@ PolarCap InnerBounds::cap_about(const Lane& lane, const Vec3& chosen_axis) {
     const double cosine = std::min(1.0, axis.dot(own) / own.norm());
     const double own_cosine = static_cast<double>(part.node->cosine[part.lane]);
     const double own_sine = std::sqrt(std::max(0.0, 1.0 - own_cosine * own_cosine));
-    if (cosine * own_cosine - own_sine >= least) continue;  // without the root, which most do not need
+    if (cosine * own_cosine - own_sine >= least) continue;  // most need no root
     least = std::min(least, cosine * own_cosine - std::sqrt(1.0 - cosine * cosine) * own_sine);
   }
   least -= 8.0 * std::numeric_limits<double>::epsilon();
@@ -195,7 +195,7 @@ void InnerBounds::bound(WideNode& node, std::uint32_t lanes, const WideHierarchy
     axes.y[lane] = node.axis[1][lane];
     axes.z[lane] = node.axis[2][lane];
     if (content.point_count == 0) content.points[content.point_count++] = Vec3::Zero();
-    // From a point of the set, so that single precision is as good for small sets as for large ones.
+    // From a point of the set: so small sets lose no digits.
     for (std::size_t k = 0; k < most_points; ++k)
       points_.set(k, lane, content.points[std::min(k, content.point_count - 1)] - content.points[0]);
   });

@@ -15,7 +15,7 @@ namespace lmdbench {
 
 /// Bounds of single lanes where a hierarchy follows a mesh (wide_refit.h), all rounded outwards.
 
-/// What a lane costs a traversal, up to a factor: lanes are opened the more often the larger they are and the wider their cones.
+/// Cost of a lane, up to a factor: large lanes with wide cones are opened often.
 inline double lane_cost(const WideNode& node, std::uint32_t lane) {
   if (node.cosine[lane] == NO_LMD_COSINE) return 0.0;
   return static_cast<double>(node.radius[lane] * node.radius[lane] * (0.2F + node.sine[lane]));
@@ -25,10 +25,10 @@ inline double lane_cost(const WideNode& node, std::uint32_t lane) {
 void bound_feature(WideNode& node, std::uint32_t lane, const WideHierarchy& hierarchy, const Surface& surface,
                    const WideItem& item);
 
-/// Bounds lanes that hold nodes, those of one node side by side (wide_bounds.h). One a thread: it is scratch memory.
-///
-/// A lane is bounded round the lanes of the nodes two levels below it, where there are any: merged from one level below, bounds
-/// are so much larger that a search makes a fifth more node tests.
+/// Bounds lanes that hold nodes, those of one node side by side (wide_bounds.h). One a thread: it
+/// is scratch memory. A lane is bounded round the lanes of the nodes two levels below it, where
+/// there are any: from one level below, bounds are so large that a search makes a fifth more node
+/// tests.
 class InnerBounds {
  public:
   /// @param lanes bits of lanes that hold nodes, whose own lanes are bounded
@@ -48,7 +48,7 @@ class InnerBounds {
     bool carries_lmd = false, has_axis = false;
     std::size_t part_count = 0;
     std::array<Part, MOST_PARTS> parts;
-    /// All parts are features of one vertex, edge or triangle: `points` are their vertices, each once, else the parts' centres.
+    /// All parts are single vertices, edges or triangles; `points`: their vertices, else centres.
     bool all_plain = true;
     std::size_t point_count = 0;
     std::array<Vec3, MOST_PARTS> points;  ///< From the hierarchy's origin [m].

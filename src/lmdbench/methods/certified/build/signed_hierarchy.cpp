@@ -12,7 +12,7 @@ namespace lmdbench {
 
 namespace {
 
-/// A cone as a cap, wider by POLAR_SLACK, which is far more than the turn at which indices are taken (GENERIC_TURN).
+/// A cap wider than a cone by POLAR_SLACK, far more than the turn of indices (GENERIC_TURN).
 PolarCap signed_cap_of(const Cone& cone) {
   const double cosine = cone.cosine - POLAR_SLACK * cone.sine - POLAR_SLACK * POLAR_SLACK;
   if (!(cosine > 0.0)) return {};

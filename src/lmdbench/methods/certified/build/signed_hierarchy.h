@@ -10,23 +10,23 @@
 
 namespace lmdbench {
 
-/// A wide hierarchy over all features that carry an LMD or another critical pair: reflex edges, saddles and pits too. Made when
-/// critical pairs are asked for, beside the one that LMDs are searched in.
+/// A wide hierarchy over all features of LMDs or other critical pairs: reflex edges, saddles and
+/// pits too (CRITICAL.md). Made when critical pairs are asked for, beside the one of LMDs.
 struct SignedHierarchy {
   WideHierarchy hierarchy;
 
   static SignedHierarchy of(const Body& body);
-  /// Built anew, and known to be: critical pairs are asked for seldom.
+  /// Builds it anew and notes so in `changes`: critical pairs are asked for seldom.
   void follow(const Body& body, const SurfaceChange& change);
 };
 
-/// Cap of all directions in which a feature has an index that is not 0: a region's normal, both normals of a chain, all normals round
-/// a corner, whose index is 0 outside their convex hull; nothing for a feature without an index.
+/// Cap of all directions in which a feature's index is not 0: a region's normal, both normals of a
+/// chain, the hull of all normals round a corner. Nothing for a feature without an index.
 /// @param lead  of the shape
 std::optional<PolarCap> signed_cap(const SignedFeatures& signs, const ShapeComplex& shape,
                                    const FeatureId& lead);
 
-/// The smallest cap that the makers of cones find around both.
+/// A cap around both, nearly the smallest.
 PolarCap merged_caps(const PolarCap& a, const PolarCap& b);
 
 }  // namespace lmdbench

@@ -70,7 +70,7 @@ HWY_INLINE Vectors unit(const Vectors& v) {
 }
 
 void lane_axes(const LaneCaps& caps, int steps, LaneVectors& axes) {
-  // Axes that are this close to the widest cap's have no direction to go.
+  // An axis this close to the widest cap's does not move.
   constexpr float LEAST_SQUARED_ACROSS = 1e-12F;
   const FloatTag f;
   const auto one = hn::Set(f, 1.0F);

@@ -14,7 +14,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Features that one task looks at. The blocks' results are joined in order, so that threads do not matter.
+/// Features of a task. Blocks are joined in order, so that threads do not matter.
 constexpr std::size_t BLOCK = 2048;
 
 /// The cap with a larger half angle; all directions where that is a right angle.
@@ -40,7 +40,7 @@ std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComple
   item.carries_lmd = cap.has_value();
   if (!cap) return item;
   item.cap = *cap;
-  // Regions and chains count as parallel to others at a small tilt (decision/contact_tolerance.h); the other mesh decides how small.
+  // Regions and chains count as parallel at a small tilt (decision/contact_tolerance.h).
   if (feature.kind != FeatureKind::VERTEX) item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
   return item;
 }

@@ -21,12 +21,12 @@ struct WideItem {
   bool carries_lmd = false;  ///< False for triangles without area: they have no cap.
 };
 
-/// A feature as a hierarchy owns it; nothing where it carries no LMD and is no triangle without area.
+/// A feature as a hierarchy owns it; nothing where it has no LMD and is no triangle without area.
 /// @param feature  of a shape the lead
 std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComplex* shape,
                                        const SignedFeatures* signs, const FeatureId& feature);
 
-/// The features that a hierarchy owns: vertices, edges and faces, each by index; flat ones by their leads.
+/// The features that a hierarchy owns: vertices, edges, faces, by index; flat ones by leads.
 std::vector<WideItem> collect_wide_items(const Surface& surface, const ShapeComplex* shape,
                                          const SignedFeatures* signs);
 

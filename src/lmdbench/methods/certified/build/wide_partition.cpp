@@ -18,10 +18,10 @@ namespace lmdbench {
 
 namespace {
 
-/// Bins of a selection; smaller sets are selected by the library.
+/// Bins of a selection; the library selects from smaller sets.
 constexpr std::size_t BINS = 256;
 
-/// An item on its way: small, because it is moved once a level. Single precision is enough to choose by.
+/// An item while sets are divided: small, as it is moved once a level.
 struct Place {
   Eigen::Vector3f centre;  ///< in the hierarchy's frame
   std::uint32_t item;      ///< index, in the order of features
@@ -65,7 +65,7 @@ class Partition {
     bisect(places, division.unit, division.children);
   }
 
-  /// Halves at multiples of the unit until one unit is left, and goes on with that.
+  /// Halves at multiples of the unit until one is left, and divides that.
   void bisect(Places places, std::size_t unit, std::size_t units) {
     if (units <= 1) {
       divide(places);
@@ -101,12 +101,11 @@ class Partition {
     }
   }
 
-  /// As select_by_axis, by one count and one move of all, where the library's way has a branch that nobody can
-  /// predict for every comparison.
+  /// As select_by_axis, by one count and one move: the library's way mispredicts a branch a
+  /// comparison.
   void select_by_bins(Places places, std::size_t count, int axis, float low, float bins_per_metre) {
     const auto bin_of = [=](const Place& place) {
-      // Of a set without extent all are in the last bin: then the factor is infinite, and
-      // the product may be no number.
+      // No number, or infinite, in a set without extent: the last bin.
       const float bin = (place.centre[axis] - low) * bins_per_metre;
       return bin < static_cast<float>(BINS - 1) ? static_cast<std::size_t>(bin) : BINS - 1;
     };
@@ -135,7 +134,7 @@ class Partition {
   }
 
   std::vector<Place>& places_;
-  std::vector<Place> spare_;  ///< Each task uses the part that its places have in places_.
+  std::vector<Place> spare_;  ///< Each task uses the range of its places.
 };
 
 }  // namespace

@@ -14,21 +14,20 @@ class ShapeComplex;
 /// Sets of features smaller than this are treated by one thread.
 inline constexpr std::size_t SMALLEST_PARALLEL_SET = 4096;
 
-/// How a set of features is shared among the children of a node: all but the last child get `unit` of them.
+/// How the children of a node share a set of features: all but the last get `unit` of them.
 struct WideDivision {
   std::size_t unit;      ///< Sets are divided at multiples of this.
   std::size_t children;  ///< At most the width.
 
-  /// Full nodes: the unit is a power of the width, so that below the root only one
-  /// path of nodes is partly empty.
+  /// The unit is a power of the width: nodes are full but for one path below the root.
   explicit WideDivision(std::size_t size);
 };
 
 /// Number of nodes of the tree over a set, this tree's root included; none for a single feature.
 std::size_t count_wide_nodes(std::size_t size);
 
-/// Puts the items into the order of the tree: every node's children are consecutive parts of its own range,
-/// as WideDivision has it. Ties are broken by the feature, so that the result depends on the mesh alone.
+/// Puts the items into the order of the tree: every node's children are consecutive ranges of its
+/// own (WideDivision). The feature breaks ties, so that the result depends on the mesh alone.
 /// @param origin of the hierarchy
 void partition_wide_items(const Surface& surface, const ShapeComplex* shape, const Vec3& origin,
                           std::vector<WideItem>& items);

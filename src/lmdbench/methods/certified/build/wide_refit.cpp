@@ -15,14 +15,14 @@ namespace lmdbench {
 
 namespace {
 
-/// Features that were given lanes, as a part of all, from which on the tree is built anew.
+/// The tree is built anew from this share of features on that were given lanes ...
 constexpr double MOST_INSERTED = 0.25;
-/// Growth of inner lanes against those of features from which on it is; `scripts/tuned_constants.py --only MOST_GROWTH
-/// experiments/deforming.json` sweeps it.
+/// ... or this growth of inner lanes against those of features (scripts/tuned_constants.py --only
+/// MOST_GROWTH experiments/deforming.json).
 constexpr double MOST_GROWTH = 1.3;
-/// Features and nodes that one task takes at a time: what fewer cost is not worth a second thread.
+/// Features and nodes of a task: fewer are not worth a second thread.
 constexpr std::size_t FEATURES_A_TASK = 4096, NODES_A_TASK = 1024;
-/// Room that is left when the mesh outgrows the radius that is known of it, so that it does not do so in every step.
+/// Room when the mesh outgrows its radius, so that it does not do so in every step.
 constexpr double RADIUS_ROOM = 1.1;
 
 }  // namespace
@@ -45,14 +45,14 @@ WideRefit::WideRefit(const WideHierarchy& hierarchy, const Surface& surface, con
       if (ref.is_feature()) {
         slot_of(ref.feature_id()) = slot;
       } else {
-        // Nodes stand after those above them.
+        // Nodes come after those above them.
         parents_[ref.node_index()] = slot;
         depths_[ref.node_index()] = depths_[n] + 1;
       }
     }
   }
   marked_.resize(1 + *std::max_element(depths_.begin(), depths_.end()));
-  // What growth is measured against: bounds that are merged from below are larger than built ones from the start.
+  // Growth is measured against refitted bounds, which are larger than built ones.
   WideHierarchy merged = hierarchy;
   const double built = inner_cost_;
   for (std::uint32_t n = 0; n < hierarchy.nodes.size(); ++n)
@@ -127,7 +127,7 @@ void WideRefit::insert(WideHierarchy& hierarchy, const Surface& surface, const F
   ++inserted_;
 }
 
-/// As make_wide_item. Wings of what changed are the neighbours, or the shape would have been made anew.
+/// As make_wide_item. Wings are the neighbours: else the shape would have been made anew.
 std::optional<WideItem> WideRefit::vertex_item(const Surface& surface, const ShapeComplex& shape,
                                                std::int32_t vertex) {
   SaddleWitness& witness = witnesses_[static_cast<std::size_t>(vertex)];
@@ -145,7 +145,7 @@ void WideRefit::update_features(WideHierarchy& hierarchy, const Surface& surface
                                 FeatureKind kind, std::span<const std::int32_t> indices) {
   items_.resize(std::max(items_.size(), indices.size()));
   cost_changes_.resize(items_.size());
-  // What has a lane is bounded in it at once: no two features share one.
+  // A feature with a lane is bounded at once: no two share one.
   parallel_ranges(indices.size(), FEATURES_A_TASK, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const FeatureId feature{kind, indices[i]};

@@ -19,20 +19,20 @@
 
 namespace lmdbench {
 
-/// Brings a wide hierarchy to a mesh that deforms (DEFORMATION.md).
+/// Lets a wide hierarchy follow a mesh that deforms (DEFORMATION.md).
 ///
-/// 1. *The leaf set follows.* Each feature whose wings changed is asked anew for its polar cap: a reflex edge that turns convex, a
-///    saddle that becomes a peak get a lane, beside a face that they belong to; what loses its cap loses its lane.
-/// 2. *Bounds follow*, from the lanes of changed features up. A node of features is bounded by their vertices, one of nodes by
-///    its lanes' bounds; lanes below which nothing changed stay as they are.
-///
-/// Where counters say that the tree is no longer what a builder would make, it is to be built anew: when many features were
-/// given lanes, and when inner lanes have grown against those of features.
+/// 1. *Lanes.* Each feature whose wings changed gets a new polar cap. A reflex edge that turns
+///    convex or a saddle that becomes a peak gets a lane, beside one of its faces; a feature
+///    without a cap loses its lane.
+/// 2. *Bounds*, from the lanes of changed features up: features are bounded by their vertices,
+///    nodes by the bounds of lanes below. Lanes below which nothing changed stay as they are.
+/// 3. The tree is to be built anew once many features were given lanes, or inner lanes have grown
+///    too much against those of features.
 class WideRefit {
  public:
   WideRefit(const WideHierarchy& hierarchy, const Surface& surface, const ShapeComplex& shape);
 
-  /// @param change of the surface; no region or chain of the shape is another one than it was when the hierarchy was built
+  /// @param change  of the surface; the shape's regions and chains are those of the build
   /// @return false where the hierarchy is to be built anew
   bool refit(WideHierarchy& hierarchy, const Surface& surface, const ShapeComplex& shape,
              const SurfaceChange& change);
@@ -54,15 +54,15 @@ class WideRefit {
 
   /// By kind: node * 8 + lane of each feature, or NO_SLOT.
   std::array<std::vector<std::uint32_t>, 3> slots_;
-  std::vector<SaddleWitness> witnesses_;     ///< #V: why a vertex has no cap, where that is plain.
-  std::vector<std::uint32_t> parents_;       ///< #nodes: the slot above each; of the root 0.
-  std::vector<std::uint32_t> depths_;        ///< #nodes: nodes above each.
-  std::vector<std::uint32_t> marked_lanes_;  ///< #nodes: bits of the lanes that changed or whose nodes did.
+  std::vector<SaddleWitness> witnesses_;            ///< #V: of vertices that are clear saddles.
+  std::vector<std::uint32_t> parents_;              ///< #nodes: the slot above each; of the root 0.
+  std::vector<std::uint32_t> depths_;               ///< #nodes: number of nodes above each.
+  std::vector<std::uint32_t> marked_lanes_;         ///< #nodes: bits of lanes changed in or below.
   std::vector<std::vector<std::uint32_t>> marked_;  ///< By depth: nodes with such lanes.
   double inner_cost_ = 0.0, leaf_cost_ = 0.0;       ///< Sums of lane_cost.
-  double cost_when_built_ = 0.0;  ///< inner_over_leaves of the built tree with all inner bounds refitted.
+  double cost_when_built_ = 0.0;  ///< inner_over_leaves of the built tree, inner bounds refitted.
   std::size_t inserted_ = 0;
-  std::vector<std::optional<WideItem>> items_;  ///< Scratch: of the features of a kind that are updated.
+  std::vector<std::optional<WideItem>> items_;  ///< Scratch: of updated features of a kind.
   std::vector<double> cost_changes_;            ///< Scratch.
   std::unique_ptr<PerThread<InnerBounds>> bounds_;
 };

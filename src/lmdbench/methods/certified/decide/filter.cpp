@@ -13,21 +13,20 @@ namespace lmdbench {
 
 namespace {
 
-/// Sine of the angle below which lines count as parallel: beyond it the feet of the common perpendicular are exact to about
-/// 2e-16 / 1e-4 of the edges, well within the margin.
+/// Sine of the angle below which lines count as parallel. Beyond it the feet of the common
+/// perpendicular are exact to about 2e-16 / 1e-4 of the edges, well within the margin.
 constexpr double PARALLEL_SINE = 1e-4;
-/// Sine below which a chain or region and a region may be parallel; half of it is above the largest tilt of the definition, 5e-5.
+/// The same for a chain or region and a region; half is above the definition's largest tilt, 5e-5.
 constexpr double PARALLEL_BAND = 2.0 * PARALLEL_SINE;
 
 /// (pi / 3) of the turn of a common perpendicular, rounded up.
 constexpr double TURN_FACTOR = 1.05;
-/// Turns of two edges, as a share of the sine between them, beyond which nothing is said: with TURN_FACTOR
-/// the common perpendicular turns by no more than SPREAD.
+/// Certificates hold up to this turn of two edges, as a share of the sine between them: the common
+/// perpendicular then turns by no more than SPREAD.
 constexpr double LARGEST_TURN = 0.05;
 constexpr double SPREAD = TURN_FACTOR * LARGEST_TURN;
 
-/// Goes through the conditions of a pair until one fails by its margin: that it falls short, its gradient and its lever arm are
-/// the certificate.
+/// Asks the conditions of a pair until one fails by its margin, and makes the certificate of that.
 class Rejection {
  public:
   Rejection(const PairFilter& filter, double lever_arm)
@@ -41,7 +40,8 @@ class Rejection {
   bool has_area(const Plane& plane) {
     return !plane.normal.isZero(0.0) || reject(Certificate::turned(std::numeric_limits<double>::infinity()));
   }
-  /// Next to touch the direction between points is not known, and the pair is the triangles' that touch: no word on what it stands.
+  /// Next to touch the direction between points is rounding, and TouchingPairs asks: no
+  /// certificate.
   bool near(const ShapeSide& from, const Vec3& /*p*/, const Vec3& /*q*/, const Vec3& d) {
     const double squared = d.squaredNorm();
     if (squared < 0.25 * filter_.touch * filter_.touch) return reject({});
@@ -76,7 +76,7 @@ class Rejection {
   bool parallel(double sine) {
     return sine <= PARALLEL_BAND || reject(Certificate::turned(sine - 0.5 * PARALLEL_BAND));
   }
-  /// Of nearly parallel lines each must come within reach of the other somewhere.
+  /// Nearly parallel lines are rejected only where they are beyond reach of each other everywhere.
   bool crosses(const Line& a, const Line& b, const Vec3& /*product*/, double sine) {
     if (sine > PARALLEL_SINE) return true;
     const Line& longer = a.length >= b.length ? a : b;
@@ -90,8 +90,8 @@ class Rejection {
     if (beyond_a <= std::max(filter_.margin * x.a.length, spare) &&
         beyond_b <= std::max(filter_.margin * x.b.length, spare))
       return true;
-    // The end beyond the other line's plane through the common perpendicular, and how fast that plane can turn. Inwards: along
-    // the line that is left behind, square to the other.
+    // The end beyond the other line's plane through the common perpendicular, and how fast that
+    // plane can turn (lemma 19). Inwards: along the line whose foot is beyond, square to the other.
     const bool is_a = beyond_a > beyond_b;
     const Line &left = is_a ? x.a : x.b, &other = is_a ? x.b : x.a;
     const double inwards = ((is_a ? x.s : x.t) < 0.0) == is_a ? -1.0 : 1.0;
@@ -99,7 +99,7 @@ class Rejection {
         inwards / (left.length * x.sine) *
         (left.along - left.along.dot(other.along) / (other.length * other.length) * other.along);
     const double beyond = std::max(beyond_a, beyond_b);
-    // Every point of the edge must stay on its side, so the farthest one is the lever arm.
+    // Every point of the edge must stay on its side: the farthest one gives the lever arm.
     const double arm = beyond + between(x).norm() + std::max(x.a.length, x.b.length);
     return reject({beyond * x.sine - 2.0 * filter_.touch, gradient, SPREAD,
                    (1.0 + SPREAD) * lever_arm_ + TURN_FACTOR * arm / x.sine, LARGEST_TURN * x.sine});
@@ -140,7 +140,7 @@ class Rejection {
     });
   }
 
-  // What passes is the definition's.
+  // The definition is asked for what passes.
 
   static void share_points(const auto&...) {}
   static void share_foot(const auto&...) {}
@@ -157,8 +157,8 @@ class Rejection {
     answer = {PairVerdict::NO_LMD, certificate};
     return false;
   }
-  /// What is left of a length that must fall to zero before anything changes, less what rounding and the definition's
-  /// tolerances take. It loses `gradient` times the displacement.
+  /// @param length  that must fall to 2 touch (rounding and tolerances) before anything changes; it
+  ///   loses `gradient` times the displacement
   bool fails_by(double length, const Vec3& gradient) {
     return reject({length - 2.0 * filter_.touch, gradient, 0.0, lever_arm_});
   }
@@ -173,7 +173,7 @@ class Rejection {
   static Vec3 between(const Crossing& x) {
     return x.b.ends[0] - x.a.ends[0] + x.t * x.b.along - x.s * x.a.along;
   }
-  /// Calls away(d . w / |w|, |w|, w) for the first wing w that d has a component along, by more than the margin.
+  /// Calls away(d . w / |w|, |w|, w) for the first wing w with d . w above the margin.
   template <class Away>
   bool for_each_away(const ShapeSide& side, const FeatureId& lead, const Vec3& d, Away&& away) {
     const Vec3 d_S = side.direction_to_surface(d);

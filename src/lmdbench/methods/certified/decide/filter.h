@@ -9,32 +9,32 @@
 
 namespace lmdbench {
 
-/// What the closed-form test of a feature pair says.
 enum class PairVerdict : std::uint8_t {
   NO_LMD,  ///< Some condition fails by more than the margin.
-  ASK      ///< The definition has to be asked.
+  ASK      ///< The definition must be asked.
 };
 
-/// What a test answers, and what that stands.
+/// The answer, and for which motions it stays valid.
 struct PairAnswer {
   PairVerdict verdict = PairVerdict::ASK;
   Certificate certificate;  ///< Of NO_LMD.
 };
 
-/// Rejects pairs of features by the conditions of the definition (decision/pair_conditions.h), each with a margin above what the
-/// definition grants it, and says how long that stands (PROOF.md, lemmas 9, 19 and 20): by how much the condition fails beyond
-/// the margin, and how fast that can change. Leaves to the definition the outer side, which the caps of the hierarchy have settled
-/// for nearly all, which part of a region a foot is in, features whose size is rounding, and what is parallel where it can be near.
+/// Rejects pairs of features in closed form (PROOF.md, lemmas 9, 19 and 20):
+/// 1. The definition's conditions are asked in order (decision/pair_conditions.h), each with a
+///    margin above what the definition grants it. The first that fails rejects the pair.
+/// 2. Its certificate: by how much it fails beyond the margin, and how fast that can change.
+/// Left to the definition: the outer side (the caps tell it nearly always), the place in a region,
+/// features whose size is rounding, and parallel features that can be near.
 struct PairFilter {
   const ShapePair& pair;
   double reach;   ///< metres; at least ContactTolerance::reach
-  double touch;   ///< metres; pairs nearer than half of it are not this filter's: see TouchingPairs
-  double margin;  ///< Relative to the lengths compared, or a sine. Far above rounding, far below geometry.
-  double
-      tiny;  ///< metres; a feature shorter than this is rounding in its size and always left to the definition
+  double touch;   ///< metres; nearer pairs than half of it are left to TouchingPairs
+  double margin;  ///< Relative to the lengths compared, or a sine: far above rounding.
+  double tiny;    ///< metres; the size of shorter features is rounding: the definition is asked
 
   /// @param on_moving, on_fixed  leads (ShapeComplex)
-  /// @param lever_arm of the moving feature: its radius about its centre and two cutoffs [m]
+  /// @param lever_arm  radius of the moving feature about its centre + 2 search distances [m]
   PairAnswer operator()(const FeatureId& on_moving, const FeatureId& on_fixed, double lever_arm) const;
 };
 

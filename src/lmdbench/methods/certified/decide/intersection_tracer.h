@@ -10,11 +10,11 @@
 
 namespace lmdbench {
 
-/// The curves in which two bodies intersect, out of the same walk that finds the LMD set: `certified`
-/// leaves the pairs of triangles that intersect, and they are chained. Along a path the walk is coherent.
+/// The curves in which two bodies intersect: `certified` gives the pairs of triangles that
+/// intersect, and these are chained. Along a path the search is coherent.
 class IntersectionTracer {
  public:
-  /// @param of_pair `Scene::is_pair`; its cutoff changes nothing in the result: the walk looks for LMDs up to it
+  /// @param of_pair  `Scene::is_pair`; its cutoff does not change the result
   explicit IntersectionTracer(const Scene& of_pair);
 
   /// @return polylines in world coordinates, valid until the next call

@@ -6,15 +6,15 @@
 
 namespace lmdbench {
 
-/// The gap (PROOF.md, lemma 12) along the first axis that shows one above `margin`, out of both normals and the products of two
-/// sides (the separating axes of two convex bodies). Nothing relies on it but the saving of an exact
-/// distance, so no care is needed for parallel sides.
+/// The gap (PROOF.md, lemma 12) along the first axis that shows one above `margin`, out of both
+/// normals and the products of two sides (the separating axes of convex bodies). It only saves an
+/// exact distance, so parallel sides need no care.
 /// @param normal_a unit normal, or zero for a triangle without area
 /// @param margin   far above the rounding of the coordinates
 ClearGap clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
                    double margin);
 
-/// The same along the normals alone: nearly all triangles that a hierarchy cannot tell apart are, and their planes say so.
+/// The same along the normals alone, which tell nearly all pairs of triangles apart.
 ClearGap gap_along_normals(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
                            double margin);
 

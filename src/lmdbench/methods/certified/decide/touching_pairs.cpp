@@ -16,18 +16,19 @@ namespace lmdbench {
 
 namespace {
 
-/// Of features with more pairs of corners the sides are not tried as separating axes, because the triangles that are near each
-/// other may be fewer (scripts/tuned_constants.py --only MOST_CORNER_PAIRS experiments/extreme/peg-square.json).
+/// With more pairs of corners the sides are not tried as separating axes: testing triangles is
+/// cheaper (scripts/tuned_constants.py --only MOST_CORNER_PAIRS
+/// experiments/extreme/peg-square.json).
 constexpr std::size_t MOST_CORNER_PAIRS = 64;
 
-/// Corners of a hull that are asked first whether it lies on both sides of a plane.
+/// So many corners of a hull are tried first: they often lie on both sides of a plane.
 constexpr std::size_t FEW_CORNERS = 4;
 
-/// Gaps that say that two triangles are apart are wider than this many touches.
+/// Two triangles are clearly apart where a gap is wider than this many touches.
 constexpr double MARGIN_IN_TOUCHES = 2.0;
 
-/// Of two triangles that cross along less than this part of their longest side the exact kernel says how long that is: pieces weigh in a
-/// contact's middle by their lengths, and where all of them are short and lie apart, so do the errors of these.
+/// The exact kernel measures crossings along less than this part of the triangles' longest side:
+/// pieces weigh in a contact's middle by their lengths, so where all are short errors would count.
 constexpr double LEAST_CROSSING_LENGTH = 1e-4;
 
 using FeaturePair = std::pair<FeatureId, FeatureId>;
@@ -41,7 +42,6 @@ Triangle triangle_of(const ShapeSide& side, std::int32_t face) {
   return side.is_moving ? side.X_WS.triangle(t) : t;
 }
 
-/// From end to end of a chain.
 Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
   const auto& ends = side.shape.ends_of_chain(chain);
   return side.vertex(ends[1]) - side.vertex(ends[0]);
@@ -55,13 +55,13 @@ ClearGap gap_to(const Plane& plane, std::span<const Vec3> points) {
                                             : ClearGap{-heights.greatest, plane.normal};
 }
 
-/// The same for a region, by its hull: a gear's end has thousands of corners and a hull of some eighty.
+/// The same for a region, by its hull: of a gear's thousands of corners some eighty.
 ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& shape) {
   const Vec3& origin = shape.frame.origin;
   const double height = plane.height(side.is_moving ? side.X_WS.point(origin) : origin);
   const Vec2 rise(plane.normal.dot(side.direction(shape.frame.u)),
                   plane.normal.dot(side.direction(shape.frame.v)));
-  // Nearly all that are asked lie on both sides, which a few corners tell.
+  // Nearly all regions lie on both sides, which a few corners tell.
   Extent of_few;
   for (std::size_t k = 0; k < FEW_CORNERS && !shape.hull.empty(); ++k)
     of_few.add(height + rise.dot(shape.hull[k * shape.hull.size() / FEW_CORNERS]));
@@ -71,14 +71,14 @@ ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& sh
   return least >= -greatest ? ClearGap{least, -plane.normal} : ClearGap{-greatest, plane.normal};
 }
 
-/// Of a face that is the lead of a region of several.
+/// Of a face that is the lead of a region of several, else null.
 const RegionShape* shape_of(const ShapeSide& side, const FeatureId& face) {
   const std::int32_t region = side.shape.region_of(face.index);
   return region < 0 ? nullptr : side.shape.shapes.of_region(region);
 }
 
-/// Largest gap between two regions along the products of a side of one and a side of the other: with their own planes the
-/// separating axes of convex polygons. Walls of a box that stands over a box are separated by no plane of theirs.
+/// Largest gap between two regions along the products of two sides, which with their planes are all
+/// separating axes. No wall's plane separates a box from a box that it stands over.
 ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_moving,
                                  std::span<const Vec3> corners_moving, const ShapeSide& fixed,
                                  std::int32_t region_fixed, std::span<const Vec3> corners_fixed) {
@@ -100,8 +100,7 @@ ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_mo
   return widest;
 }
 
-/// Notes that the definition is to be asked for what the corners of one triangle share with the corners and chains of another one
-/// that is within touch of them.
+/// Notes corners of a triangle within touch of another, each with the other's corners and chains.
 void note_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners, std::int32_t t_corners,
                   const ShapeSide& other, std::int32_t t_other, std::vector<FeaturePair>& asked) {
   const Triangle triangle = triangle_of(other, t_other);
@@ -123,7 +122,7 @@ void note_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners
   }
 }
 
-/// The same for parallel chains of two triangles within touch: the direction of what they share is one between points, too.
+/// The same for parallel chains: the direction of their contacts is one between points, too.
 void note_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed,
                           std::vector<FeaturePair>& asked) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
@@ -140,7 +139,7 @@ void note_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_movi
 
 }  // namespace
 
-/// Pairs of triangles that are looked at together, in vectors.
+/// Pairs of triangles that are decided together, in vectors.
 struct TouchingPairs::Batch {
   static constexpr std::size_t SIZE = 64;
   struct Entry {
@@ -183,7 +182,7 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   }
   if (batch.count > 0) decide_batch(frame, batch, not_crossing);
   if (not_crossing.count > 0) decide_not_crossing(frame, not_crossing);
-  // Each once: a vertex is a corner of all its triangles, and asking for it looks at all of them.
+  // Each once: a vertex is a corner of all its triangles.
   std::ranges::sort(asked_);
   asked_.erase(std::unique(asked_.begin(), asked_.end()), asked_.end());
   for (const auto& [on_moving, on_fixed] : asked_)
@@ -300,8 +299,8 @@ struct TouchingPairs::Half {
   }
 };
 
-/// Of a pair of which at least one is a region of several faces: gaps between their outlines, then the triangles of the
-/// one with more corners near the other, against those of the other near each of them.
+/// Decides a pair with a region of several faces: by gaps between outlines, then the triangles of
+/// the one with more corners near the other, against those of the other near each of them.
 Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   const Half m(moving, pair.a.feature_id(), points_moving_), f(fixed, pair.b.feature_id(), points_fixed_);
@@ -320,7 +319,7 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   large.find_faces_near(small.corners, margin, faces_of_large_);
   for (const std::int32_t t_large : faces_of_large_) {
     const Triangle t = triangle_of(large.side, t_large);
-    // What reaches the plane: a tooth that passes through the plane of a gear's end meets a few of its thousands.
+    // Of a gear's thousands of triangles few reach the plane of a tooth.
     if (small.region >= 0 && gap_to(small.side.plane(small.region), t).gap > margin) continue;
     small.find_faces_near(t, margin, faces_of_small_);
     for (const std::int32_t t_small : faces_of_small_) {

@@ -15,12 +15,12 @@
 
 namespace lmdbench {
 
-/// Decides pairs of faces and regions that may touch (PROOF.md, lemma 10): which of their triangles intersect, exactly, and what corners and chains
-/// that are nearer than `touch` share. Nearer than that a direction between two points is rounding, so that no cone of a
-/// hierarchy holds it; what has a plane's or a product's direction is found by the hierarchies at every distance.
-///
-/// Triangles that clearly cross, and those that are clearly apart, are told in vectors (triangle_contact_batch.h), the others by the
-/// exact kernel.
+/// Decides pairs of faces and regions that may touch; of regions their triangles near each other.
+/// 1. Triangles that clearly cross or are clearly apart are told in vectors (PROOF.md, lemmas 11,
+///    12; triangle_contact_batch.h), the others by the exact kernel.
+/// 2. Of triangles within `touch` the definition is asked for corners with corners and chains, and
+///    for parallel chains (lemma 10): their direction is rounding, and no cone holds it. Contacts
+///    with a plane's or product's direction are found by the hierarchies at every distance.
 class TouchingPairs {
  public:
   /// What a frame fixes, and where results go.
@@ -28,14 +28,14 @@ class TouchingPairs {
     const ShapePair& pair;
     std::int32_t body;
     double touch;  ///< metres
-    bool keeps;    ///< Whether certificates are made use of: else any gap will do, not the widest.
+    bool keeps;    ///< Certificates are used: the widest gap is needed, not any.
     ContactSet& contacts;
     std::vector<Intersection>& intersections;
-    std::vector<CrossingPair>& crossing_pairs;  ///< Of triangles that intersect but do not clearly cross.
-    std::uint64_t triangle_pairs = 0, triangle_distances = 0;  ///< Counted.
+    std::vector<CrossingPair>& crossing_pairs;                 ///< Of all triangles that intersect.
+    std::uint64_t triangle_pairs = 0, triangle_distances = 0;  ///< Counters.
   };
 
-  /// @return for each pair what its decision stands; lever arms are the caller's. Valid until the next call.
+  /// @return each pair's certificate, without lever arms; valid until the next call
   std::span<const Certificate> decide(Frame& frame, std::span<const WidePair> pairs);
 
  private:
@@ -48,7 +48,7 @@ class TouchingPairs {
   Certificate decide_regions(Frame& frame, const WidePair& pair);
 
   std::vector<Certificate> certificates_;
-  std::vector<std::pair<FeatureId, FeatureId>> asked_;  ///< What corners and chains within touch share.
+  std::vector<std::pair<FeatureId, FeatureId>> asked_;  ///< Corners and chains within touch.
   std::vector<std::int32_t> faces_of_large_, faces_of_small_;
   std::vector<Vec3> points_moving_, points_fixed_;
 };

@@ -8,12 +8,12 @@
 
 namespace lmdbench {
 
-/// What the decision about a pair of features stands. For a motion that displaces the moving feature's centre
-/// (wide_lifetime.h) by Delta and turns the mesh by theta, it holds while
+/// For which motions the decision about a pair of features stays valid. While the moving feature's
+/// centre (wide_lifetime.h) moves by Delta and the mesh turns by theta, it is valid as long as
 ///
 ///   slack - gradient . Delta - spread |Delta| - lever_arm theta > 0   and   theta < turn
 struct Certificate {
-  double slack = -1.0;           ///< metres; negative: must be decided again whatever the motion
+  double slack = -1.0;           ///< metres; negative: decided again in every frame
   Vec3 gradient = Vec3::Zero();  ///< In the world, no longer than 1.
   double spread = 0.0;
   double lever_arm = 0.0;                                 ///< metres

@@ -16,15 +16,15 @@ namespace {
 
 /// Plans end earlier by this part: rounding of single precision.
 constexpr double FRAME_ROUNDING = 1e-4;
-/// What is kept begins in one frame, and most of it stands longer than any plan: so that it does not end in one frame as well, the
-/// longest plans differ, by half in so many steps.
+/// Most of what is kept begins in one frame and is valid for longer than any plan. The longest
+/// plans differ by half, in so many steps, so that they do not all end in one frame.
 constexpr double SPREAD_OF_ENDS = 0.5;
 constexpr std::uint32_t ENDS = 16, TOGETHER = 64;
 
 }  // namespace
 
 std::uint32_t CertificateQueue::class_of(double deviation, const MotionForecast& forecast) {
-  // The exponent and the first bit of the mantissa; what is negative has the sign's bit.
+  // The exponent and the first bit of the mantissa. Negative numbers are in the lowest class.
   constexpr int SHIFT = std::numeric_limits<float>::digits - 2;
   constexpr int HIGHEST = static_cast<int>(CLASSES) - 1, OF_HIGHEST = std::bit_cast<int>(1.0F) >> SHIFT;
   const int bits = std::bit_cast<int>(static_cast<float>(deviation / forecast.extent())) >> SHIFT;
@@ -74,12 +74,12 @@ void CertificateQueue::plan(std::uint32_t index, double frames, double deviation
 void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due) {
   using Eight = std::uint64_t;
   const std::size_t count = frames_.size();
-  // The last eight may look beyond the end. What grows does so with the plans: once they are all there, nothing is allocated.
+  // The last eight may read beyond the end. Memory grows with the plans alone.
   if (is_due_.capacity() < count + sizeof(Eight)) is_due_.reserve(frames_.capacity() + sizeof(Eight));
   is_due_.assign(count + sizeof(Eight), 0);
   due.reserve(frames_.capacity());
   others_.reserve(frames_.capacity());
-  // Plain loops over local pointers: the compiler makes them work on many at once.
+  // Plain loops over local pointers, which the compiler vectorises.
   std::uint8_t* const frames = frames_.data();
   std::uint16_t* const budgets = budgets_.data();
   std::uint8_t* const is_due = is_due_.data();
@@ -95,7 +95,7 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
     for (std::size_t i = 0; i < count; ++i)
       is_due[i] |= static_cast<std::uint16_t>(budgets[i] - first) <= width;
   }
-  // First what was planned for this frame whatever the motion: pairs that cross still do, and a processor that meets them together guesses so.
+  // First the pairs without a budget, as crossing pairs: together they are predicted well.
   due.clear();
   others_.clear();
   for (std::size_t begin = 0; begin < count; begin += sizeof(Eight)) {

@@ -8,10 +8,10 @@
 
 namespace lmdbench {
 
-/// Tells whether it pays to keep a search from frame to frame. A kept test costs two to three fresh ones, so
-/// where two fifths of them are repeated in every frame (motions that are large for the geometry) a search from
-/// scratch is as cheap. Then nothing is kept for a while, longer each time; work counters alone decide, so
-/// that results and counters do not depend on the machine.
+/// Tells whether it pays to keep a search from frame to frame. A kept test costs two to three fresh
+/// ones; where two fifths are repeated in every frame (large motions) a search from scratch is as
+/// cheap. Then nothing is kept for a while, longer each time. Work counters alone decide, so that
+/// results and counters do not depend on the machine.
 class CoherencePolicy {
  public:
   /// Whether this frame's search is to be kept. Called once a frame.

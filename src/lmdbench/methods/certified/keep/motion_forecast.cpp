@@ -13,28 +13,27 @@ namespace lmdbench {
 namespace {
 
 constexpr double UNKNOWN = std::numeric_limits<double>::infinity();
-/// Deviations are learnt from forecasts that are no older than this [frames], with room.
+/// base and drift are learnt from epochs no older than this [frames], with a factor of room.
 constexpr std::uint32_t JUDGED_FRAMES = 20;
 constexpr double ROOM = 1.25;
-/// Share of what was learnt that is left after a frame: one bad forecast is not
-/// held against the next for long.
+/// Share of what was learnt that is left after a frame: bad forecasts are soon forgotten.
 constexpr double MEMORY = 0.9;
-/// The same of what epochs show of the motion's kind, an epoch.
+/// The same after an epoch, of whether the motion goes on or trembles.
 constexpr double EPOCH_MEMORY = 0.75;
-/// Largest norm of the rotation's change since an epoch's start. Between two frames of an epoch it is then at
-/// most twice that, for which the angle is the norm over sqrt(2) to within ANGLE_ROUNDING: the angle is 2
-/// asin(norm / sqrt(8)), and asin(x) <= 1.01 x for x <= 0.23.
+/// Largest norm of the rotation's change since an epoch's start. Between two frames it is then at
+/// most twice that, and the angle the norm over sqrt(2) to ANGLE_ROUNDING: it is 2 asin(norm /
+/// sqrt(8)), and asin(x) <= 1.01 x for x <= 0.23.
 constexpr double LARGEST_EPOCH_TURN = 0.32;
 constexpr double ANGLE_ROUNDING = 1.01;
 /// The difference of two rotations has two equal singular values and no third.
 constexpr double OPERATOR_NORM_OF_ROTATIONS = 1.0 / std::numbers::sqrt2;
 /// Speeds are at least this where something is divided by them.
 constexpr double LEAST = 1e-30;
-/// What a test has let through is kept until its plan ends: over motions of more cutoffs than this, too much
-/// of it would be kept for nothing.
+/// Longest motion during a plan, in search distances: lanes that a test let through are kept until
+/// its plan ends, and over longer motions too many would be kept for nothing.
 constexpr double PLAN_CUTOFFS = 8.0;
-/// A horizon saves repeated tests, but keeps more of them: scripts/tuned_constants.py sweeps all three over recorded paths.
-/// Frames, cutoffs, radians.
+/// A horizon saves repeated tests, but keeps more of them (swept by scripts/tuned_constants.py).
+/// Frames, search distances, radians.
 constexpr double LARGEST_HORIZON = 4.0, HORIZON_CUTOFFS = 1.0, HORIZON_TURN = 0.01;
 /// Relative rounding of the quantities below, generously, and of what is computed
 /// from them in single precision.
@@ -94,7 +93,7 @@ void MotionForecast::start_epoch(const RigidTransform& X_WH) {
   epoch.curve = last_turn * X_WH.rotation.transpose() * last_turn;
   // A difference that looks back lags half a frame.
   epoch.turn = last_turn + 0.5 * epoch.curve;
-  // Plans are no longer over a motion that trembles than over one that goes on.
+  // Of the motion that goes on: plans of one that trembles are not longer.
   const double speed = epoch.velocity.norm() + epoch.turn.norm() * radius_;
   epoch.goes_on = true;
   going_on_ = epoch;
@@ -104,11 +103,11 @@ void MotionForecast::start_epoch(const RigidTransform& X_WH) {
     epoch.turn.setZero();
     epoch.curve.setZero();
   }
-  // What was planned in the epoch that had this index cannot be judged any more.
+  // Plans of the older epoch with this index end: its deviation is no longer known.
   deviations_[epoch_] = UNKNOWN;
 
   const double turn = epoch.turn.norm(), curve = epoch.curve.norm();
-  // With half of LARGEST_EPOCH_TURN for what deviates.
+  // Half of LARGEST_EPOCH_TURN is left for deviations.
   longest_plan_ = std::min({static_cast<double>(epoch.goes_on ? LONGEST_PLAN : LONGEST_TREMBLING_PLAN),
                             PLAN_CUTOFFS * search_distance_ / std::max(speed, LEAST),
                             0.5 * LARGEST_EPOCH_TURN / std::max(turn + LONGEST_PLAN * curve, LEAST)});

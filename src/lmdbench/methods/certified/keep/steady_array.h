@@ -7,8 +7,8 @@
 
 namespace lmdbench {
 
-/// An array whose entries stay where they are when it grows, but for the first few: moving tens of thousands would make one frame take
-/// three times as long as its neighbours, and room for more than there are would be most of what a pair in a pile needs. (A std::deque does it, too, in pieces of 512 bytes: a tenth more for a frame, twice as much for the first.)
+/// An array whose entries do not move when it grows, but for the first few: moving ten thousands
+/// makes a frame three times as long, and pairs in piles have no memory for spare room.
 template <class T>
 class SteadyArray {
  public:

@@ -59,7 +59,7 @@ void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& mot
   const Vec3 velocity = motion.turn() * c + motion.origin_velocity();
   const double loss = certificate.gradient.dot(velocity) + certificate.spread * velocity.norm() +
                       certificate.lever_arm * motion.spin() + (1.0 + certificate.spread) * motion.creep();
-  // As the node test does it; a deviation displaces the centre as well as it turns (PROOF.md, lemma 18).
+  // As in the node test: a deviation moves the centre and turns the mesh (PROOF.md, lemma 18).
   const double weight =
       std::max(1.0 + certificate.spread,
                ((1.0 + certificate.spread) * c.norm() + certificate.lever_arm) / motion.extent());
@@ -116,7 +116,7 @@ void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const 
     if (!opened.changes.bounds_after(pair.node, seen_opened) &&
         !other.changes.bounds_after(slot / WIDE_WIDTH, seen_other))
       continue;
-    // Where the other child itself is another one now, the pair goes with the record above that opened its node.
+    // Where the other child is a new one, the record that opened its node drops this pair.
     if (opened.changes.lanes_after(pair.node, seen_opened)) {
       drop_below(record);
       finish_dropping();
@@ -132,7 +132,7 @@ void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const 
 }
 
 void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
-  // Records move in memory when one is added: by index, and nothing kept across.
+  // Records may move when one is added (SteadyArray): by index, no reference is kept.
   const std::uint32_t index = test.pair;
   test_queue_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.deviation_budget),
                    work.motion);
@@ -185,16 +185,16 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
 
 void TraversalFront::make_requested_tests(const Work& work) {
   while (!requested_.empty()) {
-    // A place that was dropped and given to another pair while it waited is in the list twice.
+    // An index that was dropped and reused while it waited is in the list twice.
     std::erase_if(requested_, [&](std::uint32_t index) {
       return !records_[index].in_use || !std::exchange(records_[index].is_requested, false);
     });
-    // No batch is larger: one that is larger than all before must not allocate.
+    // No batch is larger, so none allocates later.
     tests_.reserve(std::bit_ceil(records_.size()));
     test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
     requested_.clear();
     for (const WideKeptTest& test : tests_) {
-      // An earlier test of this batch may have dropped the pair, and given its place to another, whose test comes in the next batch.
+      // Not where an earlier test of the batch dropped the pair, or gave its index to a new one.
       const Record& record = records_[test.pair];
       if (record.in_use && !record.is_requested) apply(work, test);
     }

@@ -18,36 +18,37 @@
 
 namespace lmdbench {
 
-/// A traversal that is kept from frame to frame: the tests that were made, each with the frames that it
-/// stands, and the feature pairs that they let through. Completeness is that of find_wide_pairs: a lane that
-/// no kept test has opened is rejected by one that stands still.
+/// A traversal that is kept from frame to frame: its tests and the feature pairs ("leaves") that
+/// they let through, each valid for a plan (certificate_queue.h).
+/// 1. `start` descends from the roots as find_wide_pairs does, with lifetimes (wide_lifetime.h).
+/// 2. `advance` repeats tests that are due. A lane that survives now is opened or becomes a leaf;
+///    one that no longer does is dropped with all below it.
+/// 3. Leaves that are due are decided anew; a decision has a certificate (PROOF.md, lemma 18).
+/// None is missed, as in find_wide_pairs: a valid test rejects every lane that is not opened.
 class TraversalFront {
  public:
-  /// Forgets everything.
   void clear();
   bool empty() const { return test_queue_.size() == 0; }
 
-  /// Finds the pairs anew, as find_wide_pairs does, and what they stand.
+  /// Finds the pairs anew.
   void start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
              const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
              WideCounters& counters);
 
-  /// What was kept of children that have changed since (WideChanges), in either hierarchy, is made again in the frame that the forecast was
-  /// brought to. Comes before `advance`.
-  /// @param seen_a, seen_b  deformations of each that the pairs know; the frames of neither changed since
+  /// Repeats what was kept of children that have changed (WideChanges). Comes before `advance`.
+  /// @param seen_a, seen_b  deformations that the pairs know; neither frame has changed since
   void follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b, std::uint32_t seen_b,
               const MotionForecast& motion);
 
-  /// Brings the pairs to the frame that the forecast was brought to.
+  /// Brings the pairs to the forecast's frame.
   void advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
                WideCounters& counters);
 
   /// Finds the pairs that are due, once a frame.
   void collect_due(const MotionForecast& motion) { leaf_queue_.collect(motion, due_); }
-  /// Calls decide(pair, touches, lever_arm) for every pair that is due and chosen(pair, touches); `touches` tells
-  /// pairs of faces that may touch from pairs that may be LMDs. It returns the Certificate of its decision.
-  /// Every pair must be chosen in one call a frame.
+  /// Calls decide(pair, touches, lever_arm), which returns its Certificate, for every pair that is
+  /// due and chosen(pair, touches), in one call a frame. `touches`: faces that may touch.
   template <class Decide, class Chosen>
   void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double search_distance,
                     Decide&& decide, Chosen&& chosen) {
@@ -58,14 +59,14 @@ class TraversalFront {
     }
   }
 
-  /// Calls visit(leaf, pair) for every pair of faces that may touch and is due, instead of `decide`: each must be
-  /// given its plan by plan_leaf in this frame.
+  /// Calls visit(leaf, pair) for every pair of faces that may touch and is due. Each must be given
+  /// to plan_leaf in this frame.
   template <class Visit>
   void for_each_due_touching(Visit&& visit) const {
     for (const std::uint32_t i : due_)
       if (leaves_[i].touches) visit(i, leaves_[i].pair);
   }
-  /// Keeps a decision about a pair that was due.
+  /// Keeps the decision about a pair that was due.
   void plan_leaf(const WideHierarchy& a, const MotionForecast& motion, std::uint32_t leaf,
                  const Certificate& certificate);
   /// Of a pair's moving feature, for certificates [m].
@@ -78,7 +79,7 @@ class TraversalFront {
   std::size_t pair_count() const { return leaf_queue_.count(); }
 
  private:
-  /// What a test let through.
+  /// What the test of a pair let through.
   struct Record {
     bool in_use = false;
     bool is_requested = false;       ///< Its test is to be made in this frame.
@@ -93,7 +94,6 @@ class TraversalFront {
     std::uint32_t slot_a;
     bool touches;
   };
-  /// What a call works on.
   struct Work {
     const WideHierarchy& a;
     const WideHierarchy& b;
@@ -113,9 +113,9 @@ class TraversalFront {
   void make_requested_tests(const Work& work);
   void apply(const Work& work, const WideKeptTest& test);
 
-  // By the indices of the queues; what is beyond those is left over.
+  // By the indices of the queues; later entries are unused.
   SteadyArray<WideKeptPair> pairs_;
-  SteadyArray<Record> records_;  ///< What the test of each pair let through.
+  SteadyArray<Record> records_;
   CertificateQueue test_queue_;
   SteadyArray<Leaf> leaves_;
   CertificateQueue leaf_queue_;

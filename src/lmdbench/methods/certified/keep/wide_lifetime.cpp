@@ -52,10 +52,10 @@ struct LaneMotion {
   Number growth;                   ///< Of |D|^2 / 2 [m^2].
   Number rise_probe, rise_lane;    ///< Of z [m].
   Number widen_probe, widen_lane;  ///< Of D . b [m]; with widths alone.
-  Number extra;                    ///< What nothing is known of but its size [m].
+  Number extra;                    ///< Change of known size only [m].
 };
 
-/// Of the criteria asked, the one that will reject for longest, roughly.
+/// Of the criteria asked, the one that will reject for about the longest.
 template <class Lanes>
 struct Lasting {
   using Number = typename Lanes::Number;
@@ -132,7 +132,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   WideLifetimes result;
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
     const Bounds bounds(node, places, first, probe, limits.rounding);
-    // Motion of the lane's centre against the probe's in a frame, and what nothing is known of but its size.
+    // Motion of the lane's centre against the probe's in a frame.
     Number ex = set(-test.probe_velocity[0]);
     Number ey = set(-test.probe_velocity[1]);
     Number ez = set(-test.probe_velocity[2]);
@@ -173,7 +173,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     const Number angle_slack =
         (normals.cosines / select(bounds.between <= zero, bounds.across, set(1.0F))) * extent;
 
-    // The share of the slack, the base and the drift are left when the loss has used up the rest.
+    // Frames after which the loss leaves only DEVIATION_SHARE, base and drift.
     const auto frames = [&](Number slack, Number loss)
                             HWY_ATTR { return (slack * rest - base) / (loss + drift); };
     const auto planned = [&](Number slack, Number loss, Number wanted) HWY_ATTR {
@@ -197,7 +197,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
     result.lmd |= Lanes::bits(lmd, first);
     result.touch |= Lanes::bits(touch, first);
     const auto dead = but_not(used, lmd), touch_dead = but_not(touch_matters, touch);
-    // Lemma 17: as much as a deviation counts for, or more where the lane reaches farther.
+    // Cost of a deviation, more where the lane extends beyond the forecast's extent (lemma 17).
     const Number weight = largest_of((from_origin + lever_arm) / extent, set(1.0F));
     const auto left = [&](Number slack, Number loss, Number for_frames)
                           HWY_ATTR { return (slack - loss * for_frames) / weight; };
@@ -247,7 +247,7 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
     const WideTransform& child_in_open = open_a ? query.b_in_a : query.a_in_b;
     const WideProbe probe = make_probe(pair.child, child_in_open);
     const KindBits kinds = kind_bits(node);
-    // What can only touch matters for faces alone.
+    // Touching matters for faces alone.
     const bool may_touch = !pair.child.ref.is_feature() || pair.child.ref.is_face();
     WideLifetimeTest lifetime;
     lifetime.moving_lanes = open_a;

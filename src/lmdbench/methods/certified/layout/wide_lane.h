@@ -21,7 +21,7 @@ inline Vec3 axis_of_lane(const WideNode& node, std::uint32_t lane) {
   return {node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]};
 }
 
-/// Stores the cone of a node's child, rounded outwards. @return the axis as it is stored
+/// Stores the cone of a node's child, rounded outwards. @return the axis as stored
 inline Vec3 store_cap(WideNode& node, std::uint32_t lane, const PolarCap& cap, bool carries_lmd) {
   Vec3 axis;
   for (int k = 0; k < 3; ++k) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Vector helpers of the wide hierarchy, compiled once for every instruction set: included after
+// The criteria of the node test, compiled once for every instruction set: included after
 // foreach_target.h, with an include guard that Highway toggles.
 #if defined(LMDBENCH_WIDE_CRITERIA_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_WIDE_CRITERIA_INL_H
@@ -20,15 +20,15 @@ namespace lmdbench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Brings a node near that will be tested soon: a mesh that does not fit into a processor's
-/// cache is slow to descend otherwise.
+/// Fetches a node that will be tested soon: meshes larger than the cache are slow to descend
+/// otherwise.
 HWY_INLINE void fetch(const WideNode& node) {
   constexpr std::size_t CACHE_LINE = 64;
   const auto* const bytes = reinterpret_cast<const char*>(&node);
   for (std::size_t i = 0; i < sizeof(WideNode); i += CACHE_LINE) __builtin_prefetch(bytes + i);
 }
 
-/// What the children of a node are, as bit masks.
+/// Kinds of a node's children, as bit masks.
 struct KindBits {
   std::uint32_t features = 0;
   std::uint32_t faces = 0;
@@ -47,7 +47,7 @@ HWY_INLINE KindBits kind_bits(const WideNode& node) {
   return bits;
 }
 
-/// Some lanes of a node beside a probe: the quantities of wide_node_test.h that every test of them needs.
+/// Quantities of wide_node_test.h for some lanes of a node and a probe.
 template <class Lanes>
 struct LaneBounds {
   using Number = typename Lanes::Number;
@@ -60,7 +60,7 @@ struct LaneBounds {
   Number probe_cosine, probe_sine;
   Number squared_distance, z_probe, z_lane;  ///< |D|^2; z of the probe and of the lane.
   Number between, across;                    ///< u . u' and the sine of their angle, rounded up.
-  Number radii, slab_probe, slab_lane;       ///< With the rounding that is granted.
+  Number radii, slab_probe, slab_lane;       ///< With granted rounding.
 
   HWY_INLINE LaneBounds(const WideNode& node, const WidePlaces& places, std::uint32_t first,
                         const WideProbe& probe, float granted) {
@@ -101,7 +101,7 @@ struct LaneBounds {
   }
 };
 
-/// How far two children are apart across the probe and across the lane: no |d . b| is less.
+/// How far two children are apart across the probe and across the lane.
 template <class Lanes>
 struct LaneWidths {
   using Number = typename Lanes::Number;
@@ -109,7 +109,7 @@ struct LaneWidths {
   Number bx, by, bz;                    ///< Across the lanes.
   Number across_x, across_y, across_z;  ///< Across the probe.
   Number along_probe, along_lane;       ///< D . b
-  Number gap_probe, gap_lane;           ///< Least |d . b|, with the rounding that is granted; often negative.
+  Number gap_probe, gap_lane;           ///< Lower bounds of |d . b|, rounding granted.
 
   HWY_INLINE LaneWidths(const LaneBounds<Lanes>& bounds, const WideNode& node, const WidePlaces& places,
                         std::uint32_t first, const WideProbe& probe, const WideWidthTest& widths,
@@ -144,13 +144,13 @@ struct LaneWidths {
   }
 };
 
-/// Whose z, slab and cone a criterion speaks of.
+/// Whose z, slab and cone a criterion uses.
 enum class Of { PROBE, LANE };
 
-/// All that rejects lanes beside a probe (wide_node_test.h), said once: the traversal asks whether some criterion rejects
-/// (wide_traversal.cpp), what is kept asks for how long one does (wide_lifetime.cpp).
-///
-/// A visitor is handed each criterion as the lengths, or the cosines, that it compares:
+/// All criteria that reject lanes (wide_node_test.h), one text for two visitors. The traversal asks
+/// whether some criterion rejects (Passing in wide_traversal.cpp), tests that are kept ask for how
+/// long one does (Lasting in keep/wide_lifetime.cpp). A visitor gets the lengths or cosines that
+/// are compared:
 ///
 /// | call | rejects where |
 /// |---|---|

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Nodes of a hierarchy moved into the other one's frame, compiled once for every instruction set: included after
-// foreach_target.h, with an include guard that Highway toggles.
+// Nodes moved into the other hierarchy's frame, compiled once for every instruction set: included
+// after foreach_target.h, with an include guard that Highway toggles.
 #if defined(LMDBENCH_WIDE_MOVED_NODES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_WIDE_MOVED_NODES_INL_H
 #undef LMDBENCH_WIDE_MOVED_NODES_INL_H
@@ -56,7 +56,7 @@ class MovedNodes {
   const WideMovedNode& operator[](std::uint32_t place) const { return moved_[place]; }
   const WideNode& node(std::uint32_t place) const { return a_.nodes[moved_[place].node]; }
 
-  /// Where the child in a slot is, which is a node.
+  /// Place of the child in a slot. @pre it is a node
   HWY_INLINE std::uint32_t child(std::uint32_t slot) {
     const std::uint32_t known = moved_[slot / WIDE_WIDTH].moved_child[slot % WIDE_WIDTH];
     if (known != 0) return known;

@@ -7,51 +7,50 @@
 
 #include <cstdint>
 
-/// The test of one child ("probe") against the eight children of a node of the other mesh.
+/// The test of one child ("probe") against the eight children ("lanes") of a node of the other
+/// mesh. A lane survives where both may hold an LMD within the reach (lmd), or two points within
+/// the touch distance (touch: so near no direction is reliable, so no cone may reject).
 ///
-/// A pair must survive when it may hold an LMD within the reach, or when it may touch, that is hold two
-/// points within the touch distance (pairs that close have no reliable direction, so no cone may reject
-/// them). Let c, r, h, u, phi be centre, radius, thickness, axis and half angle of a child, D the vector from
-/// the probe's centre to the lane's, and z = u . D for the probe, z = -u . D for the lane. Every vector d
-/// from a point below one child to a point below the other is D plus offsets that lie in the two bodies, so
+/// Let c, r, h, u, phi be centre, radius, thickness, axis and half angle of a child, D = c_lane -
+/// c_probe, z = u . D for the probe's u and -u . D for the lane's.
 ///
-///   |d| >= |D| - (r + r')                                                  (spheres)
-///   |u . d - z| <= h + h' |u . u'| + r' sqrt(1 - (u . u')^2) =: slab       (extent of both bodies along u)
-///   |d across u| >= |D across u| - (r + r')
+/// 1. Bounds. A vector d between points below both children is D and offsets in both bodies, so
 ///
-/// and an LMD's d has |d| <= reach, u . d >= cos(phi) |d| >= 0 and |d across u| <= tan(phi) u . d, <=
-/// sin(phi) |d|. Together, for the probe's u and again for the lane's u (the paper's G1 to G3; decision
-/// E2's sense):
+///      |d| >= |D| - (r + r')
+///      |u . d - z| <= h + h' |u . u'| + r' sqrt(1 - (u . u')^2) =: slab
+///      |d across u| >= |D across u| - (r + r')
 ///
-///   G1  |D| <= reach + r + r'   and   z <= reach + slab
-///   G2  -u . u' >= cos(phi + phi')
-///   G3  z >= -slab   and
-///       |D across u| cos(phi) <= (r + r') cos(phi) + sin(phi) min(z + slab, reach cos(phi))
+/// 2. An LMD has |d| <= reach, u . d >= cos(phi) |d| >= 0, |d across u| <= tan(phi) u . d <=
+///    sin(phi) |d|. With 1, for the probe's u and again for the lane's (G1 to G3 of the paper,
+///    section 3.2.1):
 ///
-/// G3 needs no sigma = arcsin((r + r') / |D|): it holds for overlapping spheres too (decision E3) and is
-/// tighter there. It needs no division, and the only square root is the slab's. The touch test is |D| <=
-/// touch + r + r' and |z| <= touch + slab, both ways.
+///      G1  |D| <= reach + r + r'   and   z <= reach + slab
+///      G2  -u . u' >= cos(phi + phi')
+///      G3  z >= -slab   and
+///          |D across u| cos(phi) <= (r + r') cos(phi) + sin(phi) min(z + slab, reach cos(phi))
 ///
-/// Where features are long (WideWidths): let b be the unit vector across a child, w its half width, and b' and w' the other's. b is
-/// square to u, so that the offsets of the other child along b are at most h' |b . u'| + w' |b . b'| + r' sqrt(1 - (b . u')^2 - (b . b')^2),
-/// and an LMD's d, which is within phi of u, has |d . b| <= sin(phi) reach. So, for the probe's b and again for the lane's,
+/// 3. What touches has |D| <= touch + r + r' and |z| <= touch + slab, for both u.
+/// 4. Where features are long (WideWidths): b is the unit vector across a child, square to u, w its
+///    half width. An LMD has |d . b| <= sin(phi) reach =: limit; for what touches limit is touch.
+///    For both b
 ///
-///   |D . b| <= limit + w + h' |b . u'| + w' |b . b'| + r' sqrt(1 - (b . u')^2 - (b . b')^2)
+///      |D . b| <= limit + w + h' |b . u'| + w' |b . b'| + r' sqrt(1 - (b . u')^2 - (b . b')^2)
 ///
-/// where limit is sin(phi) reach for LMDs, and touch for what touches.
+/// Deviations from the paper: the slab; G3 rejects as decision E2 says, without the paper's sigma =
+/// arcsin((r + r') / |D|): it holds for spheres that overlap too (E3), is tighter there and needs
+/// no division (methods/DECISIONS.md).
 ///
-/// Everything is computed in single precision in the frame of one of the two; why no LMD is lost: probe and lane are
-/// rounded outwards when built; what moving one of them into the other's frame and the sums below lose is less
-/// than POSITION_ROUNDING of the largest length in play (radii of both meshes plus the distance of their
-/// origins), which is added to r + r' and to both slabs; products of directions lose less than
-/// DIRECTION_ROUNDING, which is granted in G2, in the slab and, times |D|^2, in |D across u|^2 = |D|^2 - z^2,
-/// where cancellation would hurt. No operation is fused, so that every instruction set gives the same bits
-/// and the same counters.
+/// Single precision loses no LMD (PROOF.md, lemmas 7 and 8): children are rounded outwards when
+/// built. Moving one into the other's frame and the sums lose less than POSITION_ROUNDING of the
+/// largest length in play (both radii and the distance of the origins), which is added to r + r'
+/// and to the slabs. Products of directions lose less than DIRECTION_ROUNDING, which is granted in
+/// G2, in the slab and, times |D|^2, in |D across u|^2 = |D|^2 - z^2, which cancels. No operation
+/// is fused: every instruction set gives the same bits and counters.
 namespace lmdbench {
 
-/// Relative rounding of lengths that is granted (PROOF.md, lemmas 7 and 8): 32 roundings of single precision.
+/// Granted relative rounding of lengths (PROOF.md, lemma 8): 32 roundings of single precision.
 inline constexpr double POSITION_ROUNDING = 2e-6;
-/// Rounding of products of two directions that is granted.
+/// Granted rounding of products of two directions.
 inline constexpr float DIRECTION_ROUNDING = 2e-6F;
 
 /// One child in the frame of the test.
@@ -64,7 +63,7 @@ struct alignas(16) WideProbe {
   float sine;
 };
 
-/// Widths in a test of a child against the eight of a node: the lanes' and, moved like its axis, the probe's.
+/// Widths in a test: the lanes' and, moved like its axis, the probe's.
 struct WideWidthTest {
   const WideWidths& lanes;
   float across[3];
@@ -74,7 +73,8 @@ struct WideWidthTest {
 /// Where neither mesh has long features.
 struct NoWidths {};
 
-/// Where a test reads the lanes' centres, axes and directions across: a node's own, or as moved into the other mesh's frame.
+/// Where a test reads centres, axes and directions across: in the node, or moved to the other's
+/// frame.
 struct WidePlaces {
   using Rows = const float (*)[WIDE_WIDTH];
   Rows centre, axis;
@@ -87,15 +87,15 @@ struct WidePlaces {
       : centre(of_centres), axis(of_axes), across(of_across) {}
 };
 
-/// Lengths that a query fixes, rounded outwards; reach is the cutoff and what tolerances add to it.
+/// Lengths of a query, rounded outwards; the reach is the cutoff and what tolerances add to it.
 struct WideLimits {
   float reach;
   float touch;
   float rounding;  ///< Granted to every sum of lengths.
 };
 
-/// Lanes that survive and why the others do not, as bit masks; every lane in use is in exactly one of
-/// `lmd` | `touch`, `beyond` (G1), `not_collinear` (G2) and `off_direction` (G3).
+/// Lanes that survive and why others do not, as bit masks. A lane in use is in `lmd` | `touch`, in
+/// `beyond`, in `not_collinear`, or in none of these: then G3 or a width rejects it.
 struct WideMasks {
   std::uint32_t lmd = 0;            ///< May hold an LMD.
   std::uint32_t touch = 0;          ///< May touch.
@@ -163,7 +163,7 @@ inline WideWidthTest make_width_test(const WideWidths& lanes, const WideWidths& 
   return test;
 }
 
-/// Of a node; without long features widths that say nothing.
+/// Of a node; without long features widths that reject nothing.
 inline const WideWidths& widths_of(const WideHierarchy& hierarchy, std::size_t node) {
   static constexpr WideWidths NONE{};
   return hierarchy.widths.empty() ? NONE : hierarchy.widths[node];
@@ -175,7 +175,7 @@ inline WideWidthTest make_width_test(const WideHierarchy& opened, std::size_t no
   return make_width_test(widths_of(opened, node), widths_of(other, slot / WIDE_WIDTH), slot % WIDE_WIDTH, X);
 }
 
-/// The test, lane by lane: the reference that the vector form is checked against, bit for bit.
+/// The test, lane by lane: the reference that the vector form must match bit for bit.
 /// @param widths  null: NoWidths
 /// @param places  null: the node's own
 WideMasks test_lanes_scalar(const WideNode& node, const WideProbe& probe, const WideLimits& limits,

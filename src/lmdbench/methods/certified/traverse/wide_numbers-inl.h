@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Two kinds of numbers that the node tests are written for once: the widest vectors of an instruction set, and
-// single floats, the reference. Compiled once for every instruction set: included after foreach_target.h, with an
-// include guard that Highway toggles.
+// Numbers that the node tests are written for: the widest vectors of an instruction set, and single
+// floats, the reference. Compiled once for every instruction set: included after foreach_target.h,
+// with an include guard that Highway toggles.
 #if defined(LMDBENCH_WIDE_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef LMDBENCH_WIDE_NUMBERS_INL_H
 #undef LMDBENCH_WIDE_NUMBERS_INL_H
@@ -30,7 +30,7 @@ using FloatTag = hn::CappedTag<float, WIDE_WIDTH>;
 template <class Mask>
 HWY_INLINE std::uint32_t mask_bits(FloatTag f, Mask mask, std::uint32_t first) {
 #ifdef __SANITIZE_THREAD__
-  std::uint64_t bits = 0;  // GCC 12 reads the byte below with what stands above it (-O1 -fsanitize=thread).
+  std::uint64_t bits = 0;  // GCC 12 reads more than one byte (-O1 -fsanitize=thread).
   hn::StoreMaskBits(f, mask, reinterpret_cast<std::uint8_t*>(&bits));
 #else
   alignas(8) std::uint8_t bytes[8] = {};

@@ -27,8 +27,8 @@ namespace lmdbench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Pairs that are taken from a stack together, and of them those that are looked at before their turn, to fetch what they will open:
-/// powers of two.
+/// Pairs that are taken from a stack together, and how many of them before their turn the nodes
+/// that they open are fetched: powers of two.
 constexpr std::size_t BLOCK = 128, LOOK_AHEAD = 8;
 
 /// Lanes that no criterion rejects, of those asked so far.
@@ -74,7 +74,7 @@ HWY_INLINE WideMasks test_lanes(const WideNode& node, const WidePlaces& places, 
     criteria.near_touch(touch);
     const std::uint32_t used_bits = Lanes::bits(Lanes::not_zero(node.child, first), first);
     masks.used |= used_bits;
-    // Where nothing is near enough no direction needs to be asked for.
+    // Where nothing is near enough no direction matters (early out, lemma 7).
     if (((Lanes::bits(touch.lanes, first) | Lanes::bits(near.lanes, first)) & used_bits) == 0) {
       masks.beyond |= used_bits;
       continue;
@@ -120,7 +120,7 @@ struct ScalarTest {
   }
 };
 
-/// Lanes that opening narrows more than the probe; of two that gain alike the second mesh's is opened.
+/// Lanes with more to gain than the probe; of equal gains the second mesh's child is opened.
 HWY_INLINE std::uint32_t lanes_that_gain_more(const WideNode& node, float of_probe, bool lanes_are_first) {
   std::uint32_t bits = 0;
   const VectorNumber probe = VectorLanes::set(of_probe);
@@ -144,9 +144,9 @@ HWY_INLINE WideProbe probe_of(const WideNode& node, const WidePlaces& places, st
           node.sine[lane]};
 }
 
-/// A query's descent. What opens a child of the first mesh and what opens one of the second are looked at apart, a block at a time, so
-/// that no branch depends on which it is; nor does one on what survives, but for nodes that are far and pairs that are found. A
-/// processor then works on several tests at once. Blocks come from stacks: the pairs that wait stay few, and near.
+/// A query's descent. Pairs that open a child of the first mesh and of the second have a stack each
+/// and are tested a block at a time: no branch depends on which it is, or on what survives, but for
+/// far nodes and found pairs, so a processor works on several tests at once.
 /// @tparam Widths  WideWidthTest where one of the meshes has long features, else NoWidths
 template <class Test, class Widths>
 class Descent {
@@ -177,7 +177,7 @@ class Descent {
     from.size -= count;
     scratch_.opening_a.reserve_more((count + 1) * WIDE_WIDTH);
     scratch_.opening_b.reserve_more((count + 1) * WIDE_WIDTH);
-    // Whole vectors: less than one beyond the last.
+    // Whole vectors: they read less than one vector beyond the last.
     const hn::RebindToUnsigned<FloatTag> u;
     std::array<std::uint32_t, BLOCK> slots_a, slots_b;
     for (std::size_t i = 0; i < count; i += hn::Lanes(u)) {
@@ -242,11 +242,11 @@ class Descent {
     const WideRef probe_ref = WideRef::from_bits(home.child[lane]);
     const std::uint32_t of_feature = 0u - static_cast<std::uint32_t>(probe_ref.is_feature()),
                         of_face = 0u - static_cast<std::uint32_t>(probe_ref.is_face());
-    // What can only touch matters for faces alone.
+    // Touching matters for faces alone.
     const KindBits kinds = kind_bits(node);
     const std::uint32_t touch = masks.touch & (kinds.faces | ~kinds.features) & (of_face | ~of_feature);
     const std::uint32_t alive = masks.lmd | touch, found = alive & kinds.features & of_feature;
-    // As choose_opening says: the child with more to gain, where neither is a feature.
+    // As choose_opening: the child with more to gain, where neither is a feature.
     const std::uint32_t opens_lane =
         of_feature |
         (lanes_that_gain_more(node, opening_gain(probe.radius, probe.sine), OPEN_A) & ~kinds.features);
@@ -263,7 +263,7 @@ class Descent {
     }
   }
 
-  /// Eight entries are written, as many as there are lanes are kept.
+  /// Writes eight entries and keeps as many as there are lanes.
   template <bool OPEN_A>
   static HWY_INLINE void push(WideStack& to, std::uint32_t lanes, std::uint32_t opened,
                               std::uint32_t probe_slot) {

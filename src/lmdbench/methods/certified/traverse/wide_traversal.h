@@ -13,29 +13,27 @@
 
 namespace lmdbench {
 
-/// Which form of the node test a traversal uses. Both give the same pairs and counters, bit for bit.
+/// Form of the node test. Both give the same pairs and counters, bit for bit.
 enum class WideKernel : std::uint8_t {
-  VECTOR,  ///< The widest instruction set of the processor that the program runs on (Highway, run-time
-           ///< dispatch).
+  VECTOR,  ///< The widest instruction set of this processor (Highway, run-time dispatch).
   SCALAR   ///< Plain C++, the reference.
 };
 
-/// What a query needs to know of a pose.
+/// A query: two hierarchies at a pose.
 struct WideQuery {
-  WideTransform a_in_b;  ///< Moves points from a's frame (mesh moved to WideHierarchy::origin) to b's.
+  WideTransform a_in_b;  ///< Moves points from a's hierarchy frame to b's.
   WideTransform b_in_a;
   WideLimits limits{};
-  bool possible =
-      false;  ///< False when the bounding spheres of the whole meshes are farther apart than the reach.
+  /// False where the spheres round both meshes are farther apart than both reach and touch.
+  bool possible = false;
 
   /// @param X_BA   pose of a's mesh frame in b's mesh frame
-  /// @param reach G1's limit; may be infinite
-  /// @param touch  distance at or below which pairs of faces are reported whatever their direction
+  /// @param reach  G1's limit; may be infinite [m]
+  /// @param touch  distance up to which pairs of faces are reported whatever their direction [m]
   WideQuery(const WideHierarchy& a, const WideHierarchy& b, const RigidTransform& X_BA, double reach,
             double touch);
 };
 
-/// A feature of a and a feature of b.
 struct WidePair {
   WideRef a, b;
 };
@@ -57,7 +55,7 @@ struct WideOpening {
 /// Weight of a child's size beside its cone's sine (scripts/tuned_constants.py --only CONE_GAIN).
 inline constexpr float CONE_GAIN = 0.2F;
 
-/// What opening a child narrows: its size, and more so the wider its cone is.
+/// Gain of opening a child: its size, weighted by its cone's width.
 constexpr float opening_gain(float radius, float sine) {
   return radius * (CONE_GAIN + sine);
 }
@@ -70,7 +68,7 @@ inline WideOpening choose_opening(const WideHierarchy& a, const WideHierarchy& b
   const std::uint32_t lane_a = slot_a % WIDE_WIDTH, lane_b = slot_b % WIDE_WIDTH;
   const WideRef ref_a = WideRef::from_bits(home_a.child[lane_a]);
   const WideRef ref_b = WideRef::from_bits(home_b.child[lane_b]);
-  // No short circuit: which side it is follows no pattern that a processor could learn.
+  // No short circuit: a branch here cannot be predicted.
   const bool open_a =
       static_cast<bool>(static_cast<int>(ref_b.is_feature()) |
                         (static_cast<int>(!ref_a.is_feature()) &
@@ -79,7 +77,7 @@ inline WideOpening choose_opening(const WideHierarchy& a, const WideHierarchy& b
   return {open_a, open_a ? ref_a.node_index() : ref_b.node_index()};
 }
 
-/// Children of a node of the first hierarchy as a query has them in the second one's frame: moved once, however often they are tested.
+/// Children of a node of the first hierarchy, moved into the second one's frame once a query.
 struct alignas(64) WideMovedNode {
   float centre[3][WIDE_WIDTH];
   float axis[3][WIDE_WIDTH];
@@ -88,14 +86,13 @@ struct alignas(64) WideMovedNode {
   alignas(32) float across[3][WIDE_WIDTH];  ///< Where there are long features.
 };
 
-/// Pairs of children to be tested, all of which open the same mesh's child; the last ones put there are looked at first. The first child
-/// is named by 8 times its node's place in WideScratch::moved + lane, the second by node * 8 + lane.
+/// Pairs of children to be tested, last in first out. The first child is named by 8 times its
+/// node's place in WideScratch::moved + lane, the second by node * 8 + lane.
 struct WideStack {
   static constexpr std::size_t START = 4096;  ///< Entries of a stack that has never been used.
   std::vector<std::uint32_t> a, b;
   std::size_t size = 0;
 
-  /// Makes sure of room for so many more.
   void reserve_more(std::size_t count) {
     if (size + count <= a.size()) return;
     a.resize(std::max(START, 2 * (size + count)));
@@ -111,12 +108,15 @@ struct WideScratch {
   std::vector<WidePair> touch_pairs;  ///< Pairs of faces that may touch.
 };
 
-/// Descends both hierarchies together: of a surviving pair the larger child is opened and its eight children
-/// are tested against the other in one go. Fills `lmd_pairs` with every feature pair that the bounds cannot
-/// reject as an LMD, and `touch_pairs` with every pair of faces that the bounds cannot reject as touching.
-/// Complete because the root pair survives and a pair's test is conservative for everything below it
-/// (wide_node_test.h), so by induction every feature pair that holds an LMD or touches is reached; each once,
-/// because every feature is owned by one lane and each pair of nodes is opened on one side only.
+/// Descends both hierarchies together and finds every pair of features that bounds cannot reject.
+/// 1. The pair of the roots is pushed, if the spheres round the meshes are near enough.
+/// 2. Of a popped pair the child with more to gain is opened (choose_opening). Its eight children
+///    are tested against the other child in one go (wide_node_test.h; paper, section 3.2.1).
+/// 3. Of the pairs that survive, pairs of features that may be LMDs go to `lmd_pairs`, pairs of
+///    faces that may touch to `touch_pairs`; the others are pushed.
+/// None is missed (PROOF.md, lemma 7): a test is conservative for everything below its pair, so by
+/// induction every pair that holds an LMD or touches is reached; once, as a feature has one lane
+/// and a pair of nodes is opened on one side only.
 void find_wide_pairs(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                      WideKernel kernel, WideScratch& scratch, WideCounters& counters);
 
