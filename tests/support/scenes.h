@@ -60,11 +60,11 @@ inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random
   Pose pose;
   pose.rotation = random_rotation(random);
   const Vec3 outward = -random_direction(random);
-  const double reach = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                      fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-9)
-                           .reach;
-  if (!std::isfinite(reach)) return grazing_pose(scene, gap, random);  // A miss.
-  pose.translation = reach * outward;
+  const double displacement = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                                             fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-9)
+                                  .displacement;
+  if (!std::isfinite(displacement)) return grazing_pose(scene, gap, random);  // A miss.
+  pose.translation = displacement * outward;
   return pose;
 }
 

@@ -66,12 +66,12 @@ Pose near_pose(const Body& moving, const Body& fixed, double gap, bool parallel,
   Pose pose;
   pose.rotation = random_rotation(parallel, random);
   for (Vec3 way = parallel ? Vec3::UnitZ() : random.direction();; way = random.direction()) {
-    const double reach =
+    const double displacement =
         first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
                        fixed.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
-            .reach;
-    pose.translation = reach * way;
-    if (std::isfinite(reach)) return pose;  // A line may pass through a hole.
+            .displacement;
+    pose.translation = displacement * way;
+    if (std::isfinite(displacement)) return pose;  // A line may pass through a hole.
   }
 }
 

@@ -75,12 +75,12 @@ class Start {
         cutoff_ * (chance(0.5, random) ? 1.0 - random.uniform() : power_of_ten(-13.0, 0.0, random));
     for (int trial = 0; trial < 20; ++trial) {
       const Vec3 way = some_direction(random);
-      const double reach =
+      const double displacement =
           first_approach(moving_.surface(), moving_.prepared<Hierarchy>(), fixed_.surface(),
                          fixed_.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
-              .reach;
-      if (!std::isfinite(reach)) continue;  // The line misses the fixed mesh.
-      pose.translation = reach * way;
+              .displacement;
+      if (!std::isfinite(displacement)) continue;  // The line misses the fixed mesh.
+      pose.translation = displacement * way;
       if (chance(0.2, random)) pose.translation -= cutoff_ * power_of_ten(-9.0, 1.0, random) * way;
       break;
     }

@@ -81,12 +81,12 @@ std::vector<CutRow> measure_cuts(std::size_t poses, std::uint64_t seed) {
     pose.rotation = random.rotation();
     const Vec3 outward = random.direction();
     const Body &moving = *plain.moving, &fixed = *plain.fixed[0];
-    const double reach =
+    const double displacement =
         first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
                        fixed.prepared<Hierarchy>(), pose, outward, random.uniform(0.02, 0.15), 1e-6)
-            .reach;
-    if (!std::isfinite(reach)) continue;
-    pose.translation = reach * outward;
+            .displacement;
+    if (!std::isfinite(displacement)) continue;
+    pose.translation = displacement * outward;
     chosen.push_back(pose);
   }
   std::vector<CutRow> rows;

@@ -73,11 +73,12 @@ std::vector<SumRow> measure_sums(std::size_t poses, std::uint64_t seed, bool exh
           const Vec3 outward = random.direction();
           const double gap = std::pow(10.0, random.uniform(-4.0, 0.3));
           const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-          const double reach = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                              fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-6)
-                                   .reach;
-          if (!std::isfinite(reach)) continue;
-          pose.translation = reach * outward;
+          const double displacement =
+              first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
+                             fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-6)
+                  .displacement;
+          if (!std::isfinite(displacement)) continue;
+          pose.translation = displacement * outward;
           ++row.poses;
           method->find_critical(pose, critical, ignored);
           row.wrong_sums += sum_of_indices(critical) != row.expected;

@@ -127,6 +127,20 @@ TEST(Certified, FindsTheTruthOnBoxesAndReflexEdges) {
       make_scene(make_two_boxes({1.0, 1.0, 1.0}, 0.3), make_wedge(1.0, 1.0, 0.5), 0.0), 25, 7);
 }
 
+/// Rounding grows with the way from the moving mesh's own origin (PROOF.md, lemma 3): distances that are a
+/// little larger than touch near the origin are rounding there.
+TEST(Certified, FindsTheTruthNextToTouchFarFromTheMeshsOrigin) {
+  std::mt19937_64 random(31);
+  KernelComparison comparison;
+  for (int i = 0; i < 150; ++i) {
+    const Vec3 away = 12.0 * testing::random_direction(random);
+    const Scene scene = make_scene(translated(testing::random_convex_body(random).mesh(), away),
+                                   testing::random_convex_body(random).mesh(), 0.0);
+    comparison.check(scene, grazing_pose(scene, std::pow(10.0, -7.5 + 2.0 * uniform(random)), random), 0.01);
+  }
+  EXPECT_GT(comparison.lmds(), 140U);
+}
+
 TEST(Certified, FindsTheTruthOnBoxesInParallel) {
   // Every kind of level contact: face on face, edge on edge, edge on face, corner on face; tilts
   // below and above the tolerances.

@@ -328,10 +328,10 @@ TEST(DeformingCertified, WhatIsFarFromADeformationStaysKept) {
   const auto body = deforming_body(blob);
   const Scene scene{make_body("box", box), {std::shared_ptr<const Body>(body)}, 0.05};
   const Deformation ear(blob, {DeformationKind::BEND, 0.5, 0.05, Vec3::UnitZ(), 0});
-  const double reach =
+  const double displacement =
       first_approach(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), body->surface(),
                      Hierarchy::of(body->surface()), Pose{}, -Vec3::UnitZ(), 0.02, 1e-9)
-          .reach;
+          .displacement;
   Certified kept(scene), scratch(scene, {.frame_coherence = false});
   WorkCounters of_kept, of_scratch;
   LmdSet lmds;
@@ -339,7 +339,7 @@ TEST(DeformingCertified, WhatIsFarFromADeformationStaysKept) {
   for (int frame = 0; frame < 200; ++frame) {
     ear.at(0.003 * frame, vertices);
     body->deform(vertices);
-    const Pose X_WM = testing::moved(1e-4 * frame, 0.0, -reach);
+    const Pose X_WM = testing::moved(1e-4 * frame, 0.0, -displacement);
     kept.search(X_WM, lmds, of_kept);
     scratch.search(X_WM, lmds, of_scratch);
   }

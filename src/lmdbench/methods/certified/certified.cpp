@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace lmdbench {
@@ -237,18 +238,22 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   intersections_.clear();
   crossing_pairs_.clear();
   follow_deformations();
-  const double of_fixed = fixed_.hierarchy.origin.cwiseAbs().maxCoeff() + fixed_.hierarchy.radius;
-  const double coordinates = std::max(
-      transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + hierarchy_moving_.radius, of_fixed);
-  const double where_anything_is_near = of_fixed + 2.0 * hierarchy_moving_.radius + scene_.cutoff;
-  // The same at all poses at which anything is near, so that what was kept stays valid.
-  const double touch =
-      RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(std::max(coordinates, where_anything_is_near))));
   const ShapeSide moving{scene_.moving->surface(), shape_moving_, transform, true};
   const ShapeSide fixed{fixed_.surface, fixed_.shape, identity, false};
   const ShapePair pair{moving, fixed,
                        ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
                                             transform, scene_.cutoff)};
+  const double radius = hierarchy_moving_.radius, about_origin = hierarchy_moving_.origin.norm();
+  const double of_fixed = fixed_.hierarchy.origin.cwiseAbs().maxCoeff() + fixed_.hierarchy.radius;
+  const double coordinates =
+      std::max({transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + radius, of_fixed,
+                pair.tolerance.coordinates});
+  const double where_anything_is_near =
+      of_fixed + radius + scene_.cutoff +
+      std::max(radius, about_origin + std::numbers::sqrt3 * shape_moving_.regions.extent);
+  // The same at all poses at which anything is near, so that what was kept stays valid.
+  const double touch =
+      RELATIVE_TOUCH * std::exp2(std::ceil(std::log2(std::max(coordinates, where_anything_is_near))));
   const double reach = kept_reach(pair.tolerance, hierarchy_moving_, fixed_.hierarchy);
   const double search_distance = std::max(reach, touch);
   const bool keep = follow_motion(transform, touch, search_distance);

@@ -114,7 +114,9 @@ class Rejection {
 
   bool in_cone(const ShapeSide& side, const FeatureId& lead, const Vec3& d, const BetweenPoints& /*how*/) {
     return for_each_away(side, lead, d, [&](double component, double length, const Vec3& wing) {
-      return fails_by(component, side.sign() / length * side.direction(wing));
+      // The definition admits rounding (1 + |d| / |w|), and |d| within reach (PROOF.md, lemma 2).
+      return fails_by(component - rounding_ * filter_.reach / length,
+                      side.sign() / length * side.direction(wing));
     });
   }
   bool in_cone(const ShapeSide& side, const FeatureId& lead, const Vec3& d, const SquareToLine& how) {
