@@ -101,8 +101,9 @@ class RealResultTest(SharedScratch):
 
     @classmethod
     def special(cls):
-        """A closed loop, a run in real time, a law that counts LMDs without an index, meshes that deform, several that move."""
+        """Closed loops without and with torque, real time, LMDs without an index, meshes that deform, several that move."""
         return [cls.committed("wall", "--set", "/frames=20", "--set", "/probes/truth/stride_frames=5"),
+                cls.committed("wall-6dof", "--set", "/frames=20"),
                 cls.committed("shapes", "--driver", "realtime", "--set", "/frames=100"),
                 cls.committed("shapes", "--set", "/frames=20", "--set", '/methods=[{"name": "certified"}]',
                               "--set", "/force/aggregation=shared"),

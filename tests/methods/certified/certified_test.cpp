@@ -4,6 +4,7 @@
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 
 #include <gtest/gtest.h>
+#include <support/convex_bodies.h>
 #include <support/scenes.h>
 
 #include <cmath>
