@@ -24,8 +24,8 @@ MEDIAN, LATE, ERROR = "frame, median [us]", "99 % [us]", "force error, RMS [% of
 ZERO = 1.3  # errors of 0 are drawn here
 # Series of the sweep: colour, name, and offset of the name from the last point.
 METHODS = {"original": (style.VERMILLION, "original", (-4, 7)), "improved": (style.BLUE, "improved", (4, 6)),
-           "nearest": (style.PURPLE, "nearest: FCL, one contact", (-8, 7)), "certified": (style.GREEN, "certified, what the last\nframe proved kept", (-4, 7)),
-           "certified-cold": (style.GREEN, "certified, from scratch\nin every frame", (-4, 7))}
+           "nearest": (style.PURPLE, "nearest: FCL, one contact", (-8, 7)), "certified": (style.GREEN, "certified, coherent", (-86, 8)),
+           "certified-cold": (style.GREEN, "certified, from scratch in every frame", (-4, 8))}
 NUMBERED = (1, 20, 100, 1000)  # frames between searches that get a label
 
 
@@ -60,8 +60,9 @@ def draw(found):
                 axis.annotate(str(every), (median, error), xytext=(0, -10), textcoords="offset points", ha="center", fontsize=6.5, color=colour)
         axis.annotate(name, (line[-1][1], line[-1][3]), xytext=offset, textcoords="offset points", color=colour, fontsize=8, fontweight="bold")
     axis.axvline(1000, color=style.GREY, lw=0.8, ls="--")
-    axis.annotate("1 ms: the frame is over", (1000, 3), xytext=(-4, 0), textcoords="offset points", rotation=90, ha="right", va="center",
+    axis.annotate("1 ms: the frame is over", (1000, 120), xytext=(-4, 0), textcoords="offset points", ha="right", va="center",
                   fontsize=7, color="#555555")
+    axis.annotate("numbers: frames from one search to the next", (0.42, 7), fontsize=7, color="#555555")
     axis.xaxis.set_major_formatter(FuncFormatter(lambda at, _: f"{at:g}"))
     axis.yaxis.set_major_locator(FixedLocator([ZERO, 2, 5, 10, 20, 50, 100]))
     axis.yaxis.set_major_formatter(FuncFormatter(lambda at, _: "0" if at == ZERO else f"{at:g}"))

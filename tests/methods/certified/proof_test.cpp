@@ -36,10 +36,10 @@ std::vector<int> lemmas_of_the_proof() {
   return lemmas;
 }
 
-/// Numbers in the code: "PROOF.md, lemma 3", "PROOF.md, lemmas 13, 14 and 15".
+/// Numbers in the code: "PROOF.md, lemma 3", "PROOF.md, lemmas 13, 14 and 15", "PROOF.md, lemmas 4 to 6".
 std::set<int> lemmas_of_the_code() {
-  static const std::regex mention(R"(PROOF\.md,\s+(?:///?\s*)?lemmas?((?:\s|,|and|\d|///)+))"),
-      number(R"(\d+)");
+  static const std::regex mention(R"(PROOF\.md,\s+(?:///?\s*)?lemmas?((?:\s|,|and|to|\d|///)+))"),
+      numbers(R"((\d+)(?: to (\d+))?)");
   std::set<int> named;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder())) {
     const auto extension = entry.path().extension();
@@ -47,8 +47,9 @@ std::set<int> lemmas_of_the_code() {
     const std::string code = text_of(entry.path());
     for (std::sregex_iterator found(code.begin(), code.end(), mention), end; found != end; ++found) {
       const std::string list = (*found)[1];
-      for (std::sregex_iterator one(list.begin(), list.end(), number); one != end; ++one)
-        named.insert(std::stoi(one->str()));
+      for (std::sregex_iterator one(list.begin(), list.end(), numbers); one != end; ++one)
+        for (int i = std::stoi((*one)[1]); i <= std::stoi((*one)[(*one)[2].matched ? 2 : 1]); ++i)
+          named.insert(i);
     }
   }
   return named;
