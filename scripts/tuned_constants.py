@@ -24,7 +24,7 @@ FORECAST = "src/lmdbench/methods/certified/keep/motion_forecast.cpp"
 TOUCHING = "src/lmdbench/methods/certified/decide/touching_pairs.cpp"
 LIFETIME = "src/lmdbench/methods/certified/keep/wide_lifetime.h"
 POLICY = "src/lmdbench/methods/certified/keep/coherence_policy.h"
-REFIT = "src/lmdbench/methods/certified/build/wide_refit.cpp"
+REFIT = "src/lmdbench/methods/certified/deform/wide_refit.cpp"
 TRAVERSAL = "src/lmdbench/methods/certified/traverse/wide_traversal.h"
 # name: file, text around the value, values
 CONSTANTS = {

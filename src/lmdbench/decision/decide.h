@@ -21,10 +21,10 @@ struct ShapePair {
 /// Several contacts of one place become one LMD afterwards (join_contacts.h).
 ///
 /// Bounds may rest on (certified/PROOF.md, lemma 2): a contact of (f, g) has its points in the
-/// convex hulls of f and g, a distance of at most `tolerance.reach`, and a direction within
-/// largest_tilt + rounding / distance + rounding / (the shortest wing) of f's polar cone; likewise
-/// of g's. Corners have no tilt; corner or chain with region, and crossing chains, no rounding /
-/// distance.
+/// convex hulls of f and g, a distance of at most `tolerance.reach`, and a direction u with
+/// u . w <= grant |w| for every wing w of f, likewise of g. The grant is rounding / distance +
+/// rounding / |w| between points, 2 rounding / |w| along a plane's normal, 2 rounding / |w| +
+/// LARGEST_CROSSING_SLACK across crossing chains, and LARGEST_PARALLEL_TILT more where parallel.
 /// @param on_moving, on_fixed  leads (ShapeComplex); what is no feature of the shape has no contact
 void decide(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found);
 

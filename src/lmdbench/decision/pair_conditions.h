@@ -38,7 +38,7 @@ struct SquareToLine {
 /// Along a plane's normal: turns with the mesh.
 struct AlongNormal {
   const Vec3& point;   ///< The corner over it.
-  const Vec3& normal;  ///< Of the plane, unit length or longer; d is against it.
+  const Vec3& normal;  ///< Of the plane, unit; d is against it.
 };
 /// Along the common perpendicular of two lines, at parameters s and t: turns as they turn.
 struct Crossing {

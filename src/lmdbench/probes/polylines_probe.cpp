@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/intersection_polylines.h>
-#include <lmdbench/methods/certified/decide/intersection_tracer.h>
+#include <lmdbench/methods/certified/intersection_tracer.h>
 #include <lmdbench/probes/probed_track.h>
 #include <lmdbench/scene/mesh_pair.h>
 #include <lmdbench/scene/near_pairs.h>

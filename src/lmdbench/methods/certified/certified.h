@@ -24,7 +24,9 @@ class SignedFeatures;
 
 const MethodDescription& certified_method();
 
-/// Finds the exact and complete LMD set in every frame, at one rate.
+/// Finds the exact and complete LMD set in every frame, at one rate. Read in this order: layout/,
+/// build/, traverse/ (wide_node_test.h, wide_criteria-inl.h, wide_traversal.h), decide/, keep/,
+/// deform/.
 ///
 /// 1. *Enumerate.* Both meshes have a wide hierarchy over the features of their shapes (layout/,
 ///    build/). Both are descended together; what is left is every pair of features that bounds
@@ -36,9 +38,10 @@ const MethodDescription& certified_method();
 /// 3. *Join.* The contacts of one place become one LMD (decision/join_contacts.h).
 ///
 /// No LMD is missed: `exhaustive` asks the same definition for all pairs near enough and joins with
-/// the same function, so the sets differ only where a bound is wrong; PROOF.md proves every bound.
+/// the same function, so the sets differ only where a bound is wrong. PROOF.md proves the bounds, and
+/// ends with what it does not prove.
 ///
-/// From frame to frame (keep/) step 1 reuses its tests and the filter's answers: each is valid for
+/// From frame to frame (keep/) step 1 reuses its tests, the filter's answers and gaps of triangles: each is valid for
 /// some frames if the motion goes on as forecast (wide_lifetime.h). A frame repeats those that
 /// have run out, and those for which the motion deviates too far (motion_forecast.h). A frame is
 /// searched from scratch where the pose jumps or little is kept (coherence_policy.h). Where a mesh

@@ -3,14 +3,14 @@
 #pragma once
 
 #include <lmdbench/decision/decide.h>
-#include <lmdbench/methods/certified/keep/certificate.h>
+#include <lmdbench/methods/certified/decide/certificate.h>
 
 #include <cstdint>
 
 namespace lmdbench {
 
 enum class PairVerdict : std::uint8_t {
-  NO_LMD,  ///< Some condition fails by more than the margin.
+  NO_LMD,  ///< A condition fails by more than the margin, or TouchingPairs asks.
   ASK      ///< The definition must be asked.
 };
 
@@ -22,7 +22,8 @@ struct PairAnswer {
 
 /// Rejects pairs of features in closed form (PROOF.md, lemmas 9, 19 and 20):
 /// 1. The definition's conditions are asked in order (decision/pair_conditions.h), each with a
-///    margin above what the definition grants it. The first that fails rejects the pair.
+///    margin above what the definition grants it. The first that fails rejects the pair; where a
+///    value is rounding (short sides, near parallels, touch) the definition is asked.
 /// 2. Its certificate: by how much it fails beyond the margin, and how fast that can change.
 /// Left to the definition: the outer side (the caps tell it nearly always), the place in a region,
 /// features whose size is rounding, and parallel features that can be near.

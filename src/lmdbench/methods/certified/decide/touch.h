@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/geometry/triangle_contact_batch.h>
+#include <lmdbench/methods/certified/decide/triangle_contact_batch.h>
 
 namespace lmdbench {
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/point_triangle.h>
-#include <lmdbench/geometry/triangle_contact_batch.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/geometry/triangle_sides.h>
 #include <lmdbench/methods/certified/decide/touch.h>
 #include <lmdbench/methods/certified/decide/touching_pairs.h>
+#include <lmdbench/methods/certified/decide/triangle_contact_batch.h>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <lmdbench/decision/decide.h>
 #include <lmdbench/decision/intersection_polylines.h>
 #include <lmdbench/decision/intersections.h>
-#include <lmdbench/methods/certified/keep/certificate.h>
+#include <lmdbench/methods/certified/decide/certificate.h>
 #include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace lmdbench {
 /// results and counters do not depend on the machine.
 class CoherencePolicy {
  public:
-  /// Whether this frame's search is to be kept. Called once a frame.
+  /// Whether this frame's search is to be kept. Called once a frame that could be kept.
   bool keep() {
     if (pause_ == 0) return true;
     --pause_;

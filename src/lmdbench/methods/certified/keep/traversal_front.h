@@ -3,7 +3,7 @@
 #pragma once
 
 #include <lmdbench/geometry/pose.h>
-#include <lmdbench/methods/certified/keep/certificate.h>
+#include <lmdbench/methods/certified/decide/certificate.h>
 #include <lmdbench/methods/certified/keep/certificate_queue.h>
 #include <lmdbench/methods/certified/keep/motion_forecast.h>
 #include <lmdbench/methods/certified/keep/steady_array.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
-#include <lmdbench/methods/certified/build/wide_refit.h>
+#include <lmdbench/methods/certified/deform/wide_refit.h>
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/shape/shape_complex.h>
 

@@ -10,8 +10,8 @@
 #define LMDBENCH_WIDE_CRITERIA_INL_H
 #endif
 
+#include <lmdbench/methods/certified/layout/wide_numbers-inl.h>
 #include <lmdbench/methods/certified/traverse/wide_node_test.h>
-#include <lmdbench/methods/certified/traverse/wide_numbers-inl.h>
 
 #include <hwy/highway.h>
 

@@ -10,7 +10,7 @@
 #define LMDBENCH_WIDE_MOVED_NODES_INL_H
 #endif
 
-#include <lmdbench/methods/certified/traverse/wide_numbers-inl.h>
+#include <lmdbench/methods/certified/layout/wide_numbers-inl.h>
 #include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
 #include <hwy/highway.h>

@@ -9,7 +9,7 @@
 #define LMDBENCH_LANE_GAP_INL
 #endif
 
-#include <lmdbench/geometry/lane_triangle-inl.h>
+#include <lmdbench/methods/certified/decide/lane_triangle-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {

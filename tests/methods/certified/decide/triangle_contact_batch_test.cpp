@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/tolerance.h>
-#include <lmdbench/geometry/triangle_contact_batch.h>
 #include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/methods/certified/decide/triangle_contact_batch.h>
 
 #include "geometry/every_family.h"
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
-#include <lmdbench/methods/certified/build/refit_bounds.h>
-#include <lmdbench/methods/certified/build/wide_refit.h>
+#include <lmdbench/methods/certified/deform/refit_bounds.h>
+#include <lmdbench/methods/certified/deform/wide_refit.h>
 
 #include <algorithm>
 #include <bit>

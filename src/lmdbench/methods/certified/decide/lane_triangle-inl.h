@@ -9,9 +9,9 @@
 #define LMDBENCH_LANE_TRIANGLE_INL
 #endif
 
-#include <lmdbench/geometry/lane_block.h>
 #include <lmdbench/geometry/lane_vector-inl.h>
 #include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/methods/certified/decide/lane_block.h>
 
 #include <hwy/highway.h>
 

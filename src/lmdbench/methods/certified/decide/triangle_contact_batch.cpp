@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
-#include <lmdbench/geometry/triangle_contact_batch.h>
+#include <lmdbench/methods/certified/decide/triangle_contact_batch.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -11,11 +11,11 @@
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 // The rest of this file is compiled once for every instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "lmdbench/geometry/triangle_contact_batch.cpp"
+#define HWY_TARGET_INCLUDE "lmdbench/methods/certified/decide/triangle_contact_batch.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
-#include <lmdbench/geometry/lane_crossing-inl.h>
-#include <lmdbench/geometry/lane_gap-inl.h>
+#include <lmdbench/methods/certified/decide/lane_crossing-inl.h>
+#include <lmdbench/methods/certified/decide/lane_gap-inl.h>
 
 #include <hwy/highway.h>
 

@@ -5,6 +5,7 @@
 #include <lmdbench/methods/certified/build/wide_bounds.h>
 #include <lmdbench/methods/certified/build/wide_items.h>
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
+#include <lmdbench/methods/certified/traverse/wide_traversal.h>
 #include <lmdbench/shape/shape_complex.h>
 
 #include <array>
@@ -15,10 +16,10 @@ namespace lmdbench {
 
 /// Bounds of single lanes where a hierarchy follows a mesh (wide_refit.h), all rounded outwards.
 
-/// Cost of a lane, up to a factor: large lanes with wide cones are opened often.
+/// Cost of a lane, up to a factor: its size and its gain by opening (wide_traversal.h).
 inline double lane_cost(const WideNode& node, std::uint32_t lane) {
   if (node.cosine[lane] == NO_LMD_COSINE) return 0.0;
-  return static_cast<double>(node.radius[lane] * node.radius[lane] * (0.2F + node.sine[lane]));
+  return static_cast<double>(node.radius[lane] * opening_gain(node.radius[lane], node.sine[lane]));
 }
 
 /// Bounds a lane that holds a feature of one vertex, edge or triangle.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/methods/certified/build/refit_bounds.h>
+#include <lmdbench/methods/certified/deform/refit_bounds.h>
 #include <lmdbench/methods/certified/layout/single_precision.h>
 #include <lmdbench/methods/certified/layout/wide_lane.h>
 

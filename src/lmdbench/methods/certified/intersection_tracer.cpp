@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/methods/certified/decide/intersection_tracer.h>
+#include <lmdbench/methods/certified/intersection_tracer.h>
 
 namespace lmdbench {
 

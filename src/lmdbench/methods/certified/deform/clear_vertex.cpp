@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/vertex_fan.h>
-#include <lmdbench/methods/certified/build/clear_vertex.h>
 #include <lmdbench/methods/certified/build/polar_extremes.h>
+#include <lmdbench/methods/certified/deform/clear_vertex.h>
 
 #include <algorithm>
 #include <cmath>

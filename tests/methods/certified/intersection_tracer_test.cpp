@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/triangle_intersection.h>
-#include <lmdbench/methods/certified/decide/intersection_tracer.h>
+#include <lmdbench/methods/certified/intersection_tracer.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>

@@ -4,9 +4,9 @@
 
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/surface_change.h>
-#include <lmdbench/methods/certified/build/clear_vertex.h>
-#include <lmdbench/methods/certified/build/refit_bounds.h>
 #include <lmdbench/methods/certified/build/wide_items.h>
+#include <lmdbench/methods/certified/deform/clear_vertex.h>
+#include <lmdbench/methods/certified/deform/refit_bounds.h>
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/shape/shape_complex.h>
 

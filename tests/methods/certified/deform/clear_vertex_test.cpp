@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/methods/certified/build/clear_vertex.h>
+#include <lmdbench/methods/certified/deform/clear_vertex.h>
 
 #include "methods/certified/traverse/wide_samples.h"
 #include <gtest/gtest.h>

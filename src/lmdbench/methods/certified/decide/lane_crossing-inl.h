@@ -9,7 +9,7 @@
 #define LMDBENCH_LANE_CROSSING_INL
 #endif
 
-#include <lmdbench/geometry/lane_triangle-inl.h>
+#include <lmdbench/methods/certified/decide/lane_triangle-inl.h>
 
 #include <cstdint>
 
