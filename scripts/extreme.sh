@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs every method on the extreme scenes (experiments/extreme/) and tells what each makes of them: results/extreme/*.h5,
-# summary.md and summary.json beside them, the table on standard output. Exit code 1 where a value is not a number that must be one
-# or an exact method is not exact.
+# Runs every method on the extreme scenes (experiments/extreme/): results/extreme/*.h5, summary.md and
+# summary.json, and the table on standard output. Exit code 1 where a value is no number or an exact
+# method is not exact.
 #   scripts/extreme.sh [SCENE...]   only these, such as 'needles far'; all without any
 #   LMDBENCH_BUILD=DIR              where the program is (build/release)
 #   LMDBENCH_EXTREME=DIR            where the results go (results/extreme)

@@ -37,7 +37,7 @@ class Rule:
         return [f"Rule: {self.rule} {self.note.format(*evidence)}".rstrip(), "", *found.table(), *(below or [])], found.cells
 
 
-# A budget sweep varies the search period alone, and a claim of hard or soft contact takes its scene.
+# A budget sweep varies the search period alone; a claim of hard or soft contact takes its scene.
 CLAIMS = {
     "K1": Rule(
         short="Hard: the improved force is stable, the original's jumps between zero and strong",

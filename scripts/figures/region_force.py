@@ -32,7 +32,7 @@ def over_paths(points, statistic):
 def k2(found, sweep):
     for one, _ in settings(sweep):
         value, limits = over_paths(one.points, lambda p: p.number("lmd_count_p99"))
-        # One number of every method at the cutoff that is swept in mean edges; under 10 is at most 9.
+        # A number of every method at the cutoff swept in mean edges; under 10 is at most 9.
         cell = decide(*limits, at_most=9.0)
         words = [schedule(one.period), *([f"G5 {one.angle} deg"] if one.angle != "-" else []), *(["edge neighbours"] if "edge-neighbours" in one.series else [])]
         name = f"{one.series.split('-')[0]}, cutoff {in_edges(one.share)} mean edges | {', '.join(words)}"

@@ -8,7 +8,7 @@ from lmdbench_results import ResultError
 
 def claims_of(results):
     """{"hard", "soft", "claims"} of the two results that have the paper's methods, or {"problem": why there is no ledger}."""
-    # On the machine's clock (/realtime) each method searches when it can: their searches do not stand beside each other.
+    # In real time (/realtime) each method searches when it can: searches are not comparable.
     able = [result for result in results if {"original", "improved"} <= set(result.methods) and result.number("frames_in_contact") > 0
             and not result.has("/realtime")]
     if not able:

@@ -15,7 +15,7 @@ namespace lmdbench {
 /// Exact minimum distance [m] of the moving mesh at X_WM to the fixed one; 0 if they intersect.
 using DistanceFunction = std::function<double(const Pose& X_WM)>;
 
-/// Exact `first_centre_distance` of a scene, without its many distances; 0 where the gap never occurs.
+/// Exact `first_centre_distance` of a scene, without its many distances; 0 where there is none.
 using CentreDistanceFunction =
     std::function<double(const Vec3& direction_W, const Eigen::Quaterniond& rotation, double gap)>;
 
@@ -25,9 +25,10 @@ using ProgressFunction = std::function<void(std::size_t done, std::size_t all)>;
 /// All that the generator knows of the two meshes. Each sphere contains its mesh.
 struct PathScene {
   DistanceFunction distance;
-  CentreDistanceFunction centre_distance = nullptr;  ///< Unset: by conservative advancement over `distance`.
-  double diagonal = 0.0;                             ///< Of the moving mesh: the unit of gaps [m].
-  Vec3 moving_centre_M = Vec3::Zero();               ///< What the moving mesh turns about.
+  /// Unset: by conservative advancement over `distance`.
+  CentreDistanceFunction centre_distance = nullptr;
+  double diagonal = 0.0;                ///< Of the moving mesh: the unit of gaps [m].
+  Vec3 moving_centre_M = Vec3::Zero();  ///< What the moving mesh turns about.
   double moving_radius = 0.0;
   Vec3 fixed_centre_W = Vec3::Zero();
   double fixed_radius = 0.0;
@@ -41,9 +42,9 @@ inline constexpr double GAP_TOLERANCE = 1e-3;
 inline constexpr int MAXIMUM_APPROACH_STEPS = 400;
 
 /// Distance between the centres at which the moving mesh, coming from outside along `direction_W`,
-/// first has the gap. By the scene's own `centre_distance`, or by conservative advancement: a translation by
-/// s changes the distance by at most s, so steps of distance minus gap never come nearer than the
-/// gap. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass each
+/// first has the gap. By the scene's own `centre_distance`, or by conservative advancement: a
+/// translation by s changes the distance by at most s, so steps of distance minus gap never come
+/// nearer than the gap. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass each
 /// other without coming that near.
 /// @param direction_W unit, from the fixed mesh's centre to the moving one's
 /// @param gap metres, > 0

@@ -90,7 +90,7 @@ class ApproachSearch {
     return {std::sqrt(inside) - along + slack, index_a, index_b};
   }
 
-  /// Whether slabs on an axis, at the best displacement, are beyond the gap and separate from there on.
+  /// Whether slabs on an axis, at the best displacement, are beyond the gap and from there on.
   bool is_beyond(const Vec3& axis, const Triangle& a, const Triangle& b) const {
     const Vec3 way = best_.displacement * direction_;
     const double extent = extent_ + std::abs(best_.displacement);

@@ -38,12 +38,12 @@ const MethodDescription& certified_method();
 /// 3. *Join.* The contacts of one place become one LMD (decision/join_contacts.h).
 ///
 /// No LMD is missed: `exhaustive` asks the same definition for all pairs near enough and joins with
-/// the same function, so the sets differ only where a bound is wrong. PROOF.md proves the bounds, and
-/// ends with what it does not prove.
+/// the same function, so the sets differ only where a bound is wrong. PROOF.md proves the
+/// bounds, and ends with what it does not prove.
 ///
-/// From frame to frame (keep/) step 1 reuses its tests, the filter's answers and gaps of triangles: each is valid for
-/// some frames if the motion goes on as forecast (wide_lifetime.h). A frame repeats those that
-/// have run out, and those for which the motion deviates too far (motion_forecast.h). A frame is
+/// From frame to frame (keep/) step 1 reuses its tests, the filter's answers and gaps of triangles:
+/// each is valid for some frames if the motion goes on as forecast (wide_lifetime.h). A frame
+/// repeats what has run out, and what the motion deviates too far for (motion_forecast.h). It is
 /// searched from scratch where the pose jumps or little is kept (coherence_policy.h). Where a mesh
 /// deforms, tests of nodes that changed are repeated (TraversalFront::follow). The set is the same.
 class Certified : public Method {

@@ -3,20 +3,22 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/methods/certified/layout/single_precision.h>
+#include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
 #include <lmdbench/methods/certified/build/wide_bounds.h>
-#include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/methods/certified/build/wide_items.h>
-#include <lmdbench/methods/certified/layout/wide_lane.h>
 #include <lmdbench/methods/certified/build/wide_partition.h>
+#include <lmdbench/methods/certified/layout/single_precision.h>
+#include <lmdbench/methods/certified/layout/wide_hierarchy.h>
+#include <lmdbench/methods/certified/layout/wide_lane.h>
 #include <lmdbench/shape/shape_complex.h>
+
 #include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <span>
-#include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
 
 namespace lmdbench {
 

@@ -12,7 +12,7 @@ class SignedFeatures;
 
 /// Builds the hierarchy of a mesh, the same with any number of threads. A leaf is one feature.
 /// 1. Each feature gets the cap of its own directions (polar_cap.h; PROOF.md, lemmas 4 to 6).
-/// 2. Sets of features are divided near the median, at powers of 8, which fills nodes (wide_partition.h).
+/// 2. Sets are divided near the median, at powers of 8, which fills nodes (wide_partition.h).
 /// 3. Bottom-up each child gets a body and a cone round all features below it (wide_bounds.h).
 /// @param shape  where given, its regions and chains replace faces and edges
 /// @param signs  where given, also features of other critical pairs (signed_hierarchy.h); needs a

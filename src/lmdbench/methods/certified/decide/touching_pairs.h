@@ -19,8 +19,8 @@ namespace lmdbench {
 /// 1. Triangles that clearly cross or are clearly apart are told in vectors (PROOF.md, lemmas 11,
 ///    12; triangle_contact_batch.h), the others by the exact kernel.
 /// 2. Of triangles within `touch` the definition is asked for corners with corners and chains, and
-///    for parallel chains (PROOF.md, lemma 10): their direction is rounding, and no cone holds it. Contacts
-///    with a plane's or product's direction are found by the hierarchies at every distance.
+///    for parallel chains (PROOF.md, lemma 10): their direction is rounding, and no cone holds it.
+///    Contacts with a plane's or product's direction the hierarchies find at every distance.
 class TouchingPairs {
  public:
   /// What a frame fixes, and where results go.

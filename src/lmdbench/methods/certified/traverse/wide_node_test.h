@@ -21,8 +21,8 @@
 ///      |d across u| >= |D across u| - (r + r')
 ///
 /// 2. An LMD has |d| <= reach, u . d >= cos(phi) |d| >= 0, and |d across u| is at most tan(phi) u .
-///    d and at most sin(phi) |d|. With 1, for the probe's u and again for the lane's (G1 to G3 of the paper,
-///    section 3.2.1):
+///    d and at most sin(phi) |d|. With 1, for the probe's u and again for the lane's (G1 to G3 of
+///    the paper, section 3.2.1):
 ///
 ///      G1  |D| <= reach + r + r'   and   z <= reach + slab
 ///      G2  -u . u' >= cos(phi + phi')
