@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs every method on the extreme scenes (experiments/extreme/): results/extreme/*.h5, summary.md and
+# Runs every method on the scenes of experiments/extreme: results/extreme/*.h5, summary.md and
 # summary.json, and the table on standard output. Exit code 1 where a value is no number or an exact
 # method is not exact.
 #   scripts/extreme.sh [SCENE...]   only these, such as 'needles far'; all without any

@@ -44,8 +44,8 @@ inline constexpr int MAXIMUM_APPROACH_STEPS = 400;
 /// Distance between the centres at which the moving mesh, coming from outside along `direction_W`,
 /// first has the gap. By the scene's own `centre_distance`, or by conservative advancement: a
 /// translation by s changes the distance by at most s, so steps of distance minus gap never come
-/// nearer than the gap. Every larger centre distance on the ray has at least this gap. 0 when the meshes pass each
-/// other without coming that near.
+/// nearer than the gap. Every larger centre distance on the ray has at least this gap. 0 when the
+/// meshes pass each other without coming that near.
 /// @param direction_W unit, from the fixed mesh's centre to the moving one's
 /// @param gap metres, > 0
 double first_centre_distance(const PathScene& scene, const Vec3& direction_W,

@@ -128,8 +128,8 @@ TEST(Certified, FindsTheTruthOnBoxesAndReflexEdges) {
       make_scene(make_two_boxes({1.0, 1.0, 1.0}, 0.3), make_wedge(1.0, 1.0, 0.5), 0.0), 25, 7);
 }
 
-/// Rounding grows with the way from the mesh's own origin (PROOF.md, lemma 3): a corner over an edge
-/// whose wings lean towards the other box by less than the definition grants at that distance.
+/// Rounding grows with the way from the mesh's own origin (PROOF.md, lemma 3): a corner over an
+/// edge whose wings lean towards the other box by less than the definition grants at that distance.
 TEST(Certified, FindsTheTruthNextToTouchFarFromTheMeshsOrigin) {
   std::mt19937_64 random(31);
   KernelComparison comparison;

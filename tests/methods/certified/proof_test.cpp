@@ -36,7 +36,7 @@ std::vector<int> lemmas_of_the_proof() {
   return lemmas;
 }
 
-/// Numbers in the code: "PROOF.md, lemma 3", "PROOF.md, lemmas 13 and 15", "PROOF.md, lemmas 4 to 6".
+/// Numbers in the code: "PROOF.md, lemma 3", "PROOF.md, lemmas 13 and 15", "..., lemmas 4 to 6".
 std::set<int> lemmas_of_the_code() {
   static const std::regex mention(R"(PROOF\.md,\s+(?:///?\s*)?lemmas?((?:\s|,|and|to|\d|///)+))"),
       numbers(R"((\d+)(?: to (\d+))?)");
