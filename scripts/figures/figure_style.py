@@ -129,11 +129,24 @@ def legend_within(figure, keys, left, y, loc, layouts, right=0.995):
 MOST_LABELLED = 7  # decades of an axis with a label
 
 
+LABELLED_STEPS = (((1, 2, 3, 5), 5), ((1, 2, 5), 6))  # within a decade, and how many labels of them stay apart
+
+
 def labelled_decades(low, high):
     """Powers of ten from 10**low to 10**high that get a label: all, or every second, third, ... of many."""
     powers = range(math.ceil(low), math.floor(high) + 1)
     step = max(1, -(-len(powers) // MOST_LABELLED))
     return [10.0**power for power in powers if power % step == 0]
+
+
+def labelled(low, high):
+    """What gets a label from 10**low to 10**high: the finest steps that are few enough, else decades."""
+    for parts, most in LABELLED_STEPS:
+        steps = [float(f"{part}e{power}") for power in range(math.floor(low), math.floor(high) + 1) for part in parts]
+        steps = [step for step in steps if low <= math.log10(step) <= high]
+        if len(steps) <= most:
+            return steps
+    return labelled_decades(low, high)
 
 
 def lanes(axis, span, low, high, lane, has_zero, has_failed):
@@ -144,7 +157,7 @@ def lanes(axis, span, low, high, lane, has_zero, has_failed):
     zero, failed = 10 ** (low - lane / 2), 10 ** (high + lane / 2)
     begin, end = 10 ** (low - lane) if has_zero else 10**low, 10 ** (high + lane) if has_failed else 10**high
     names = {zero: "0", failed: "failed"}
-    axis.set_major_locator(FixedLocator([zero] * has_zero + labelled_decades(low, high) + [failed] * has_failed))
+    axis.set_major_locator(FixedLocator([zero] * has_zero + labelled(low, high) + [failed] * has_failed))
     axis.set_major_formatter(FuncFormatter(lambda value, _: names.get(value, f"{value:g}")))
     axis.set_minor_formatter(NullFormatter())
     for first, last in ((begin, 10**low), (10**high, end)):

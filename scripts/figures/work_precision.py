@@ -20,12 +20,15 @@ from variants import open_results
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 MARKERS = ("o", "s", "^", "D", "v", "P")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
 # Width of the lanes for errors of exactly 0 and for failures, as a share of the logarithmic range.
 LANE_SHARE = 0.2
+MARGIN = 0.1  # decades between points and the ends of an axis
+SHORTEST_RANGE = 0.6  # decades
+NEAR = 0.35  # decades from an axis to the budget that it still reaches for
 ROUNDING = 1e-8  # errors below this share of F_max are rounding, and drawn as 0
 LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5),)
 
@@ -64,18 +67,40 @@ def error_axis(axes, errors, any_failed):
     """Logarithmic range of the finite positive errors, with a shaded lane for errors of exactly 0 on its left and one
     for failures on its right where they are needed; returns the places of the two lanes and their width in decades."""
     positive = [error for error in errors if np.isfinite(error) and error > 0]
-    # Points stay a tenth of a decade from the ends.
-    low = np.floor((np.log10(min(positive)) - 0.1) * 5) / 5 if positive else -3.0
-    high = max(np.ceil(np.log10(max(positive)) * 20) / 20 + 0.1 if positive else 0.0, low + 1.0)
+    low, high = decades(positive, SHORTEST_RANGE) if positive else (-3.0, 0.0)
     lane = LANE_SHARE * (high - low)
     axes.set_xscale("log")
     zero, failed, limits = style.lanes(axes.xaxis, axes.axvspan, low, high, lane, any(error == 0 for error in errors), any_failed)
     axes.set_xlim(limits)
-    # Labels may leave out decades; those get small marks.
-    every = [10.0**power for power in range(math.floor(low), math.floor(high) + 1)]
-    small = every if len(every) > style.MOST_LABELLED else [step * decade for decade in every for step in range(2, 10)]
-    axes.xaxis.set_minor_locator(FixedLocator([mark for mark in small if 10**low <= mark < 10**high]))
+    axes.xaxis.set_minor_locator(FixedLocator(small_marks(low, high)))
     return zero, failed, lane
+
+
+def decades(values, shortest=0.0):
+    """The range of values, in decades: they stay a tenth of a decade from its ends."""
+    low, high = (np.floor((np.log10(min(values)) - MARGIN) * 20) / 20, np.ceil((np.log10(max(values)) + MARGIN) * 20) / 20)
+    return low, max(high, low + shortest)
+
+
+def small_marks(low, high):
+    """Labels may leave out decades; those get small marks."""
+    every = [10.0**power for power in range(math.floor(low), math.floor(high) + 1)]
+    small = every if len(every) > style.MOST_LABELLED else [step * decade for decade in every for step in range(1, 10)]
+    return [mark for mark in small if 10**low <= mark < 10**high]
+
+
+def time_axis(axes, points):
+    """Logarithmic range of the run times; the budget is in it where it is near."""
+    times = [time for point in points for time in (point.median_ms, point.p99_ms) if np.isfinite(time) and time > 0]
+    low, high = decades(times or [HAPTIC_BUDGET_MS], SHORTEST_RANGE)
+    budget = math.log10(HAPTIC_BUDGET_MS)
+    low, high = (min(low, budget - MARGIN) if budget > low - NEAR else low), (max(high, budget + MARGIN) if budget < high + NEAR else high)
+    axes.set_yscale("log")
+    axes.set_ylim(10**low, 10**high)
+    axes.yaxis.set_major_locator(FixedLocator(style.labelled(low, high)))
+    axes.yaxis.set_minor_locator(FixedLocator(small_marks(low, high)))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
 
 
 def spread(index, count, lane_decades):
@@ -104,11 +129,21 @@ def draw_panel(axes, points, quantities, label, markers, colours):
         axes.plot(place, point.p99_ms, marker="_", ms=5, color=colour, zorder=2)
         axes.plot(place, point.median_ms, marker="x" if bad else markers[point.experiment], ms=6, color=colour,
                   mec=colour if bad else "white", mew=1.4 if bad else 0.6, zorder=3)
-    axes.axhline(HAPTIC_BUDGET_MS, color=style.GREY, lw=0.8, ls=(0, (2, 2)), zorder=1)
-    axes.annotate("1 ms", (0.0, HAPTIC_BUDGET_MS), xycoords=("axes fraction", "data"), xytext=(3, 2),
-                  textcoords="offset points", color="#555555", fontsize=6.5, zorder=9,
-                  bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.4})
     axes.set_xlabel(label)
+
+
+def mark_budget(axes):
+    """One haptic frame, or on which side of the range it is."""
+    low, high = axes.get_ylim()
+    note = {"textcoords": "offset points", "color": "#555555", "fontsize": 6.5, "zorder": 9,
+            "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.4}}
+    if low <= HAPTIC_BUDGET_MS <= high:
+        axes.axhline(HAPTIC_BUDGET_MS, color=style.GREY, lw=0.8, ls=(0, (2, 2)), zorder=1)
+        axes.annotate("1 ms", (0.0, HAPTIC_BUDGET_MS), xycoords=("axes fraction", "data"), xytext=(3, 2), **note)
+    elif HAPTIC_BUDGET_MS > high:
+        axes.annotate("budget of 1 ms: above", (0.0, 1.0), xycoords="axes fraction", xytext=(3, -8), **note)
+    else:
+        axes.annotate("budget of 1 ms: below", (0.0, 0.0), xycoords="axes fraction", xytext=(3, 3), **note)
 
 
 def draw(results, narrow=False):
@@ -121,21 +156,21 @@ def draw(results, narrow=False):
     width, height, rows = (0.5 * style.TWO_COLUMNS_IN, 6.2, len(PANELS)) if narrow else (style.TWO_COLUMNS_IN, 3.5, 1)
     inch = 3.5 / height
     figure, axes = plt.subplots(rows, len(PANELS) // rows, figsize=(width, height), sharey=True, gridspec_kw={
-        "left": 0.19 if narrow else 0.092, "right": 0.985, "bottom": 0.145 * inch, "top": 0.92, "wspace": 0.08, "hspace": 0.22})
+        "left": 0.2 if narrow else 0.102, "right": 0.985, "bottom": 0.145 * inch, "top": 0.92, "wspace": 0.08, "hspace": 0.22})
     for panel, (*quantities, label) in zip(axes, PANELS):
         draw_panel(panel, points, quantities, label, markers, colours)
-    axes[0].set_yscale("log")
-    axes[0].yaxis.set_major_locator(LogLocator(numticks=12))
-    axes[0].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    time_axis(axes[0], points)
+    for panel in axes:
+        mark_budget(panel)
     for panel in axes if narrow else axes[:1]:
         panel.set_ylabel("run time per frame in contact [ms]\nmedian, whisker to 99th percentile")
     keys = [Line2D([], [], color=colour, lw=2.5, label=label) for label, colour in colours.items()]
     keys += [Line2D([], [], color="#444444", ls="none", marker=markers[name], ms=5.5, mew=0, label=style.shortened(name))
              for name in names if len(names) > 1]
     keys.append(Line2D([], [], color="white", ls="none", marker="o", ms=5, mec="#444444", mew=0.9,
-                       label="open: neighbouring features count"))
+                       label="open: neighbouring features count as found"))
     style.note_failures(figure, {f"{point.method.label} in {point.experiment}": point.failure for point in points if point.failure})
-    _, lines = style.legend_within(figure, keys, 0.02 if narrow else 0.085, 0.995, "upper left", LEGEND_LAYOUTS)
+    _, lines = style.legend_within(figure, keys, 0.02 if narrow else 0.095, 0.995, "upper left", LEGEND_LAYOUTS)
     axes[0].get_gridspec().update(top=0.975 - 0.055 * inch * lines)
     return figure
 

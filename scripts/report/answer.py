@@ -15,6 +15,7 @@ class Row:
         self.force_law = method.force_law if method.aggregation == "sum" else f"{method.force_law}, {method.aggregation}"
         self.number = method.number
         self.force_error = method.number("force_error_rms_n") / method.constant("maximum_force_n")
+        self.frames_probed = method.read("truth/frame").size if method.has("truth/frame") else 0
         self.largest_force_error = method.number("force_error_maximum_n") / method.constant("maximum_force_n")
 
 
@@ -52,12 +53,19 @@ def number(value, scale=1.0):
     return "-" if not math.isfinite(shown) else f"{shown:.0f}" if abs(shown) >= 1000 else f"{shown:.3g}"
 
 
+def frames_wrong(row):
+    """Of how many; methods that promise a force alone have no set that could be wrong."""
+    wrong = row.number("frames_wrong")
+    return f"{wrong:.0f} of {row.frames_probed}" if math.isfinite(wrong) else "-"
+
+
 def summary(name, scale=1.0):
     return lambda row: number(row.number(name), scale)
 
 
 FIRST_COLUMNS = (
     ("method", lambda row: row.label),
+    ("frames wrong", frames_wrong),
     ("recall [%]", lambda row: percent(row.number("recall"))),
     ("force error, RMS [% of F_max]", lambda row: percent(row.force_error)),
     ("frame, median", lambda row: time(row.number("frame_time_median_s"))),
@@ -67,6 +75,8 @@ FIRST_COLUMNS = (
 COLUMNS = (
     ("method", lambda row: row.label),
     ("force law", lambda row: row.force_law),
+    ("frames probed", lambda row: f"{row.frames_probed}"),
+    ("frames wrong", summary("frames_wrong")),
     ("recall [%]", summary("recall", 100.0)),
     ("recall, neighbouring features count [%]", summary("recall_adjacent", 100.0)),
     ("precision [%]", summary("precision", 100.0)),

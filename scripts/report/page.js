@@ -54,6 +54,41 @@ function decades(low, high) {
   return ticks;
 }
 
+const MARK_SIZE = 3.5;  // pixels
+
+// Dygraphs begins its pattern anew at every point, which leaves none of it in a dense line.
+const dashed_steps = (pattern) => ({drawingContext, color, strokeWidth, points}) => {
+  drawingContext.save();
+  drawingContext.setLineDash(pattern);
+  drawingContext.strokeStyle = color;
+  drawingContext.lineWidth = strokeWidth;
+  drawingContext.beginPath();
+  let last = NaN;
+  for (const {canvasx, canvasy} of points) {
+    if (Number.isNaN(last)) drawingContext.moveTo(canvasx, canvasy);
+    else drawingContext.lineTo(canvasx, last);
+    drawingContext.lineTo(canvasx, canvasy);
+    last = canvasy;
+  }
+  drawingContext.stroke();
+  drawingContext.restore();
+};
+
+// A thin dashed line across a plot, with its name at the left end.
+function draw_limit(canvas, area, y, label) {
+  const colour = getComputedStyle(document.documentElement).getPropertyValue("--soft").trim();
+  canvas.save();
+  canvas.strokeStyle = canvas.fillStyle = colour;
+  canvas.setLineDash([5, 4]);
+  canvas.beginPath();
+  canvas.moveTo(area.x, y);
+  canvas.lineTo(area.x + area.w, y);
+  canvas.stroke();
+  canvas.font = "12px system-ui, sans-serif";
+  canvas.fillText(label, area.x + 6, y - 5);
+  canvas.restore();
+}
+
 function draw_panel(place, number, panel, time, last) {
   const result = page.results[number];
   const columns = panel.series.map((line) => floats(line.values));
@@ -67,21 +102,34 @@ function draw_panel(place, number, panel, time, last) {
   place.append(box);
   const looks = {};
   for (const line of panel.series)
-    looks[line.label] = {color: line.colour, stepPlot: !!line.steps, connectSeparatedPoints: !!line.points, strokeWidth: line.wide ? 5 : 1.2};
+    looks[line.label] = {color: line.colour, stepPlot: !!line.steps, ...(line.dash && {plotter: dashed_steps(line.dash)}),
+                         ...(line.marks ? {strokeWidth: 0, drawPoints: true, pointSize: MARK_SIZE} : {strokeWidth: 1.2})};
+  // What is known at some frames only keeps its last value in the legend.
+  const last_known = (k, row) => {
+    for (let i = row; i >= 0; --i) if (!Number.isNaN(columns[k][i])) return String(Number(columns[k][i].toFixed(4)));
+    return undefined;
+  };
+  const row_at = (x) => { let row = -1; while (row + 1 < time.length && time[row + 1] <= x) ++row; return row; };
   return new Dygraph(box.querySelector(".plot"), rows, {
     labels: ["time [s]", ...panel.series.map((line) => line.label)],
     series: looks,
     labelsDiv: box.querySelector(".legend"),
     legend: "always",
-    legendFormatter: (data) => data.series.map((line) => `<span class="key" style="--key: ${line.color}">${line.labelHTML}` +
-        `${line.yHTML === undefined ? "" : ": " + line.yHTML}</span>`).join("") + (data.xHTML ? `at ${data.xHTML}` : ""),
+    legendFormatter: (data) => {
+      const row = data.x === undefined ? -1 : row_at(data.x);
+      return data.series.map((line, k) => {
+        const value = line.yHTML === undefined ? last_known(k, row) : line.yHTML;
+        return `<span class="key" style="--key: ${line.color}">${line.labelHTML}${value === undefined ? "" : ": " + value}</span>`;
+      }).join("") + (data.xHTML ? `at ${data.xHTML}` : "");
+    },
+    underlayCallback: (canvas, area, plot) => { if (panel.limit) draw_limit(canvas, area, plot.toDomYCoord(panel.limit.value), panel.limit.label); },
     xlabel: last ? "time [s]" : null,
     logscale: !!panel.log,
     includeZero: !panel.log,
     axisLineColor: grid_colour(),
     gridLineColor: grid_colour(),
     digitsAfterDecimal: 4,
-    axes: {x: {valueFormatter: (value) => `${value.toFixed(3)} s`}, y: {axisLabelWidth: 56, valueRange: panel.range || null, ...(panel.log && {ticker: decades})}},
+    axes: {x: {valueFormatter: (value) => `${value.toFixed(3)} s`}, y: {axisLabelWidth: 56, pixelsPerLabel: 22, valueRange: panel.range || null, ...(panel.log && {ticker: decades})}},
     clickCallback: (event, x) => page.views[number] && page.views[number].go_to(x),
   });
 }

@@ -13,6 +13,9 @@ from lmdbench_results import reference_force, true_forces, truth_of
 # Lines must be visible on a white and on a dark page.
 ON_BOTH = {style.BLACK: "#777777"}
 RANGE_MARGIN = 1.05
+DASHES = (None, [9, 6], [3, 6])
+PERCENT_RANGE = [0.0, 105.0]
+LIMIT_RANGE = 1.2  # room above the line for its label
 RECALL_WINDOW = 40  # probed frames: one frame's recall is mostly 0 or 1
 
 
@@ -51,11 +54,16 @@ def moving_recall(truth):
 
 def force_panel(result, colours):
     lines = []
-    for name, method in true_forces(result.methods.values()):  # below the others, and wider
+    for name, method in true_forces(result.methods.values()):  # below the others
         frames, force = reference_force(method)
-        lines.append(series(name, at_frames(result, frames, force), style.TRUTH_COLOURS[method.force_law], points=True, wide=True))
+        lines.append(series(name, at_frames(result, frames, force), style.TRUTH_COLOURS[method.force_law], marks=True))
     lines += [series(method.label, method.force_magnitude(), colours[method.label]) for method in result.methods.values()]
-    return {"id": "force", "title": "Force", "unit": "N", "series": lines}
+    panel = {"id": "force", "title": "Force", "unit": "N", "series": lines}
+    limit, highest = result.scene("device_maximum_force_n"), drawn_values(panel).max(initial=0.0)
+    if 0.0 < 0.99 * limit <= highest:
+        panel["limit"] = {"value": limit, "label": f"device limit {limit:g} N"}
+        panel["range"] = [0.0, LIMIT_RANGE * float(highest)]
+    return panel
 
 
 def movers_panel(result, colours):
@@ -93,20 +101,22 @@ def update_panel(result, colours):
 
 
 def age_panel(result, colours):
-    lines = [series(method.label, method.read("lmd_age") * 1e3, colours[method.label], steps=True)
-             for method in result.methods.values() if method.has("lmd_age") and not method.searches_every_frame()]
+    """Methods whose searches are due together have one age: all lines but the first are dashed, so that each is seen."""
+    methods = [method for method in result.methods.values() if method.has("lmd_age") and not method.searches_every_frame()]
+    lines = [series(method.label, method.read("lmd_age") * 1e3, colours[method.label], steps=True, dash=DASHES[i % len(DASHES)])
+             for i, method in enumerate(methods)]
     return {"id": "age", "title": "Age of the LMD set in use", "unit": "ms", "series": lines} if lines else None
 
 
 def recall_panel(result, colours):
-    lines = []
+    lines, probed = [], 0
     for method in result.methods.values():
         truth = truth_of(method)
         if truth is not None:
-            lines.append(series(method.label, at_frames(result, truth.frames, 100.0 * moving_recall(truth)),
-                                colours[method.label], points=True))
-    title = f"True LMDs known, over the last {RECALL_WINDOW} probed frames"
-    return {"id": "recall", "title": title, "unit": "%", "series": lines} if lines else None
+            probed = max(probed, truth.frames.size)
+            lines.append(series(method.label, held(result, truth.frames, 100.0 * moving_recall(truth)), colours[method.label], steps=True))
+    title = f"True LMDs known, {f'in the last {RECALL_WINDOW} probed frames' if probed > RECALL_WINDOW else 'in the probed frames so far'}"
+    return {"id": "recall", "title": title, "unit": "%", "range": PERCENT_RANGE, "series": lines} if lines else None
 
 
 PANELS = (force_panel, movers_panel, count_panel, search_panel, update_panel, age_panel, recall_panel)
@@ -128,11 +138,12 @@ def panels_of(results):
     for result, entry in zip(results, made):
         for panel in entry["panels"]:
             same.setdefault((result.experiment_name, panel["id"]), []).append(panel)
-    for panels in (panels for panels in same.values() if len(panels) > 1):
+    for panels in (panels for (_, panel), panels in same.items() if len(panels) > 1 and panel != "recall"):
         values = np.concatenate([drawn_values(panel) for panel in panels])
         if values.size and values.max() > 0:
             for panel in panels:
-                panel["range"] = [float(values.min()) if panel.get("log") else 0.0, RANGE_MARGIN * float(values.max())]
+                margin = LIMIT_RANGE if any("limit" in other for other in panels) else RANGE_MARGIN
+                panel["range"] = [float(values.min()) if panel.get("log") else 0.0, margin * float(values.max())]
     return made
 
 

@@ -84,7 +84,7 @@ def over_time_entry(results, folder, by_paper):
     name, title, beyond = ("figure7", "The paper's Figure 7", " beyond the paper") if by_paper else ("over_time", "Over time", "")
     made = entry(figure7.draw(*(results[i] for i in taken)), folder, name, title,
                  f"{where}Force, LMD counts, search and update times, and{beyond} the true force and the share "
-                 "of true LMDs that each method knows. The same over all methods, to zoom: the next section.")
+                 f"of true LMDs that each method knows.{' The next section has these plots to zoom, with all methods.' if by_paper else ''}")
     return {**made, "folded": "" if by_paper else "As a figure to print", "csv_results": [(i, results[i].name) for i in taken]}
 
 
@@ -102,14 +102,25 @@ def clock_entry(result, folder):
     return {**made, "html": markdown.markdown("\n\n".join("\n".join(table) for table in lists), extensions=["tables"])}
 
 
+def work_precision_text(results):
+    """What the figure shows; lanes and open marks only where they are drawn."""
+    points = [work_precision.Point(result, method) for result in results for method in result.methods.values()]
+    several = " in one experiment" if len({point.experiment for point in points}) > 1 else ""
+    lanes = ["The shaded lane on the left holds errors of exactly zero."] * any(
+        0.0 in (point.force_error, point.missed, point.missed_adjacent) for point in points)
+    lanes += ["The shaded lane on the right holds methods that fail."] * any(point.failure for point in points)
+    return " ".join([
+        f"Each filled mark is one method{several}: further right its error is larger, further up its run time in a frame in contact is longer; lower "
+        "left is better. Open marks: the share missed if LMDs between neighbouring features count as found.", *lanes])
+
+
 def figures(results, sweeps, folder, by_paper):
     entries = [sweep_entry(sweep, folder) for sweep in sweeps]
     probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
     if probed:
         entries.append(entry(
             work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
-            "A point a method and experiment: what error it leaves for what run time of a frame in contact. Lower left is better; "
-            "shaded lanes hold errors of exactly zero and methods that fail.", work_precision_csv(probed), work_precision.draw(probed, narrow=True)))
+            work_precision_text(probed), work_precision_csv(probed), work_precision.draw(probed, narrow=True)))
     entries += [clock_entry(result, folder) for result in results if clocks(result)]
     over_time = over_time_entry(results, folder, by_paper)
     return entries + ([over_time] if over_time else [])

@@ -5,6 +5,7 @@
 it. `lmdbench report` calls this with the scenes of the results; everything else comes from the result files alone."""
 
 import argparse
+import html
 import json
 import os
 import re
@@ -57,7 +58,12 @@ def in_script(text):
 
 def code(text):
     """What stands in backticks, set as code."""
-    return markupsafe.Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(markupsafe.escape(text))))
+    return markupsafe.Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(plain(text))))
+
+
+def plain(text):
+    """As an element's text, where quotes need no escape."""
+    return markupsafe.Markup(html.escape(str(text), quote=False))
 
 
 def title_of(results, sweeps):
@@ -69,11 +75,12 @@ def title_of(results, sweeps):
 def what_was_run(result):
     methods = ", ".join(method.label for method in result.methods.values())
     probed = next((truth_of(method) for method in result.methods.values() if truth_of(method)), None)
-    truth = f"errors against exhaustive truth (every pair of features) in {probed.frames.size} frames" if probed else "no truth probe"
+    truth = f"errors against exhaustive truth (every pair of features) in {probed.frames.size} probed frames" if probed else "no truth probe"
     cutoffs, largest = (" and ".join(dict.fromkeys(f"{method.constant(name) * scale:.4g}" for method in result.methods.values()))
                         for name, scale in (("cutoff_m", 1e3), ("maximum_force_n", 1.0)))
     loop = "in a closed loop, in which every method moves a simulated device of its own" if result.experiment.get("loop", {}).get("kind") == "closed" else ""
-    return (f"{result.time.size} frames{loop and ' ' + loop}, {result.triangles()} triangles, cutoff {cutoffs} mm, F_max {largest} N; methods {methods}"
+    return (f"{result.time.size} frames{loop and ' ' + loop}, {result.triangles()} triangles, cutoff {cutoffs} mm (forces begin at this distance), F_max {largest} N (the largest force of one "
+            f"contact); methods {methods}"
             f"{searches(result)}; {truth}.")
 
 
@@ -82,8 +89,33 @@ def searches(result):
     tracking, driver = [method.label for method in result.methods.values() if method.tracks_locally], result.experiment.get("driver", {})
     if not tracking or driver.get("kind") == "realtime" or not {"search_every_frames", "search_latency_frames"} <= driver.keys():
         return ""
-    return (f" ({' and '.join(tracking)}: a search every {driver['search_every_frames']} frames, its set there {driver['search_latency_frames']} "
-            "frames later, tracked in between)")
+    return (f" ({' and '.join(tracking)}: a search begins every {driver['search_every_frames']} frames and its contacts are in use "
+            f"{driver['search_latency_frames']} frames later; in between they are tracked)")
+
+
+def clipping_beside(result, warnings):
+    """The run's note names a method that the device clips often; the others that it clips, too."""
+    if not any("clips the force" in warning for warning in warnings):
+        return []
+    shares = {method.label: method.number("force_clipped_share") for method in result.methods.values()
+              if not any(warning.startswith(f"{method.label}: the device clips the force") for warning in warnings)}
+    others = [f"{label} in {100.0 * share:.2g} %" for label, share in shares.items() if share > 0.0]
+    return [f"The device clips other methods, too: {', '.join(others)} of the frames in contact"] if others else []
+
+
+def notes_of(result):
+    warnings = result.texts("/scene/warnings") if result.has("/scene/warnings") else []
+    return warnings + clipping_beside(result, warnings)
+
+
+def in_words(name, value):
+    """A key of the provenance and its value, as one reads them."""
+    if name.endswith("_bytes") and str(value).isdigit():
+        unit, scale = ("MiB", 2**20) if int(value) >= 2**20 else ("KiB", 2**10)
+        name, value = name.removesuffix("_bytes"), f"{int(value) / scale:,.0f} {unit}"
+    if not name.startswith("result hash: "):  # a label is what it is
+        name = re.sub(r"\bl(\d)\b", r"L\1", name.replace("_", " "))
+    return name, value
 
 
 def provenance(result):
@@ -94,12 +126,12 @@ def provenance(result):
         rows += [(f"input: {role}", f"{file}, SHA-256 {digest}") for role, file, digest in
                  zip(*(result.texts(f"/provenance/inputs/{name}") for name in ("role", "file", "sha256")))]
     rows += [(f"result hash: {label}", result.text_attribute(f"/methods/{label}", "result_hash")) for label in result.methods]
-    return [(name, value) for name, value in rows if value]
+    return [in_words(name, value) for name, value in rows if value]
 
 
 def sweep_provenance(sweep):
     rows = [*sorted(sweep.provenance.items()), *((f"machine: {name}", value) for name, value in sorted(sweep.machine.items()))]
-    return {"name": sweep.name, "provenance": [(name, value) for name, value in rows if value], "experiment": sweep.definition}
+    return {"name": sweep.name, "provenance": [in_words(name, value) for name, value in rows if value], "experiment": sweep.definition}
 
 
 PAPERS_OMISSION = ("The paper states neither force constants, cutoffs, saturation distance, paths nor the exact meshes: they are ours, and stand in "
@@ -107,15 +139,14 @@ PAPERS_OMISSION = ("The paper states neither force constants, cutoffs, saturatio
 OMISSIONS = (
     "Times are of one machine and one process a result: compare methods within a result, not results of different machines.",
     "A time is the median of the repetitions of its frame; the largest frame is the largest of these medians, not of all samples.",
-    "In a run truth is probed at a stride: events between the probed frames are not seen by recall, precision and force error. True jumps are "
-    "counted in every frame where a method that promises the complete set runs along. In a sweep truth stands in every frame.",
-    "Forces are plain sums of the LMDs' forces, as in the paper, and jump by up to F_max where an LMD is born or dies, unless the force law's column "
-    "names an aggregation: shared is continuous and never pulls (for rendering to a hand), signed is continuous and does no work in a closed loop "
-    "(where energy is accounted for), layered is for parts that conform, such as a rod in a bore. Errors are against the same aggregation of the "
-    "true set; methods without saddles (original, improved, nearest) are summed.",
-    "The methods run in one thread and take turns, block by block, in random order; on the machine's clock each runs by itself.",
-    "The methods of the paper are scalar code; where a method uses vector instructions, its times say so in the experiment's options or not at "
-    "all: work counters in the result file are the fair comparison.",
+    "In a run truth is probed at a stride: events between the probed frames are not seen by recall, precision and force error. Jumps of "
+    "the true force are counted in all frames if one of the methods promises the complete set, else in the probed frames. A sweep knows truth in every frame.",
+    "Forces are sums over the LMDs, as in the paper: they jump by up to F_max where an LMD is born or dies. Another aggregation (shared, signed, layered) "
+    "stands in the column of the force law.",
+    "Force errors are against the true set under the same aggregation; methods that find no saddles (original, improved, nearest) are always summed.",
+    "The methods run in one thread and take turns, block by block, in random order; with the driver `realtime` each has a run to itself.",
+    "The paper's methods are scalar code. Whether another method uses vector instructions is told by its options in the experiment, if at all: the "
+    "fair comparison is by the work counters in the result file.",
 )
 
 
@@ -133,21 +164,24 @@ def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
     raw = markupsafe.Markup
     entries = [{**entry, "csv": raw(in_script(entry["csv"])), "html": raw(entry["html"])} for entry in figures(results, sweeps, folder, by_paper)]
     studies = [{**entry, "html": raw(entry["html"])} for entry in study_sections(study_files)]
+    printed = [entry for entry in entries if entry["id"] == "over_time"]  # stands with the plots to zoom
+    entries = [entry for entry in entries if entry not in printed]
     claims = claims_of(results) if by_paper and results else {}
     sections = navigation(entries, results, studies, claims, paper)
     linked = [(claim, evidence(claim.id, [*sections, *studies])) for claim in claims.get("claims", [])]
     data = {"results": panels_of(results), "scenes": scenes,
             "colours": [page_colours(result) for result in results]}
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined)
-    environment.filters["code"] = code
+    environment.filters.update(code=code, plain=plain)
     titles = [result.experiment.get("title") for result in results]
     described = [{"name": result.name, "what": (f"{title}. " if title and len(set(titles)) > 1 else "") + what_was_run(result), "answer": answer(result), "provenance": provenance(result),
                   "experiment": json.dumps(result.experiment, indent=2),
-                  "warnings": result.texts("/scene/warnings") if result.has("/scene/warnings") else []} for result, title in zip(results, titles)]
+                  "warnings": notes_of(result)} for result, title in zip(results, titles)]
     return environment.get_template("page.html.j2").render(
         title=title_of(results, sweeps),
-        results=described, movers=any(result.has("/path/movers/position") for result in results), sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
-        figures=entries, by_paper=by_paper, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
+        results=described, movers=any(result.has("/path/movers/position") for result in results),
+        probed=any(truth_of(method) for result in results for method in result.methods.values()), sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
+        figures=entries, printed=printed, by_paper=by_paper, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
         omissions=[PAPERS_OMISSION, *OMISSIONS] if by_paper else OMISSIONS, style=raw(text_of(HERE, "page.css")),
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),
                    "style": raw("\n".join(library(*item) for item in STYLES))},

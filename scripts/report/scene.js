@@ -5,13 +5,13 @@
 // the world's, in metres.
 
 const LEVELS = 65535;
-const MOVING_COLOUR = 0x8fb8de;
+const MOVING_COLOUR = 0xa99fd6;  // no method's: figure_style.py
 const MOVER_COLOUR = 0x9ecbb4;
 const FIXED_COLOURS = [0xc9c3b6, 0xb9c7b0, 0xc7b3c0];
 const EXACT_COLOUR = "#d9b400";  // truth in every figure: figure_style.py
 const CURVE_COLOUR = "#555555";
 const BALL_SHARES = {exact: 0.011, own: 0.006};  // radius over the distance from the eye: as large from near as from far
-const VIEW_SHARE = 3.6;  // distance of the eye from the contact, over the radius of the moving mesh
+const VIEW_SHARE = 5.8;  // distance of the eye from the contact, over the radius of the moving mesh
 const ARROW_SHARE = 0.6;  // length of the longest arrow over that radius: it stays inside the view
 const CREASE = Math.cos(Math.PI / 6);  // triangles that meet under more than 30 degrees meet in an edge that one sees
 const KEY_TURN = 0.12;  // radians a key press
@@ -108,10 +108,13 @@ class View {
     // One colour a mesh, however many instances.
     const source = (mesh) => mesh.triangles_of || mesh.role, fixed = this.data.meshes.filter((mesh) => mesh.role.startsWith("fixed"));
     const kinds = [...new Set(fixed.map(source))];
+    this.legend = new Map();  // what a body is: its colour
     this.bodies = this.data.meshes.map((mesh) => {
       // Both let the contact between them shine through.
       const moves = !mesh.role.startsWith("fixed");
       const colour = mesh.role === "moving" ? MOVING_COLOUR : moves ? MOVER_COLOUR : FIXED_COLOURS[kinds.indexOf(source(mesh)) % FIXED_COLOURS.length];
+      const which = kinds.length > 1 ? ` ${kinds.indexOf(source(mesh)) + 1}` : "";
+      this.legend.set(mesh.role === "moving" ? "moving mesh" : moves ? "others that move" : `fixed mesh${which}`, colour);
       const material = new THREE.MeshLambertMaterial({color: colour, transparent: true, opacity: moves ? 0.8 : 0.6});
       const body = new THREE.Mesh(mesh_geometry(mesh, this.data.meshes), material);
       if (!mesh.role.startsWith("mover_")) this.scene.add(body);
@@ -144,6 +147,18 @@ class View {
 
   // Everything that can be shown or hidden is a box with its colour; in a closed loop the device is chosen, too.
   offer_choices(place) {
+    const swatch_of = (colour) => {
+      const swatch = document.createElement("span");
+      swatch.className = "swatch";
+      swatch.style.background = colour;
+      return swatch;
+    };
+    for (const [name, colour] of this.legend) {
+      const key = document.createElement("span");
+      key.className = "body";
+      key.append(swatch_of("#" + colour.toString(16).padStart(6, "0")), name);
+      place.append(key);
+    }
     const box = (name, text, colour) => {
       const label = document.createElement("label");
       const input = document.createElement("input");
@@ -153,10 +168,7 @@ class View {
         if (input.checked) this.hidden.delete(name); else this.hidden.add(name);
         this.show(Number(this.slider.value));
       });
-      const swatch = document.createElement("span");
-      swatch.className = "swatch";
-      swatch.style.background = colour;
-      label.append(input, swatch, text);
+      label.append(input, swatch_of(colour), text);
       place.append(label);
     };
     if (this.tracks.length > 1) {

@@ -59,7 +59,8 @@ class Answer(Scratch):
             self.assertEqual([line[0] for line in table["rows"]], ["original", "improved"])
             self.assertTrue(all(len(line) == len(table["headings"]) for line in table["rows"]))
             self.assertIn("recall [%]", table["headings"])
-        self.assertLessEqual(len(shown["first"]["headings"]), 6)
+        self.assertLessEqual(len(shown["first"]["headings"]), 7)
+        self.assertEqual([line[1] for line in shown["first"]["rows"]], ["8 of 40", "0 of 40"])
         self.assertIn("recall, neighbouring features count [%]", shown["whole"]["headings"])
 
     def test_numbers_are_in_the_unit_that_one_reads(self):
@@ -94,6 +95,19 @@ class Series(Scratch):
         np.testing.assert_allclose(lines["improved"], result.methods["improved"].force_magnitude(), rtol=1e-6)
         self.assertEqual(lines["truth, exponential law"].size, 300)
 
+    def test_marks_the_devices_limit_where_forces_reach_it(self):
+        result = Result(write_result(self.path("hard.h5"), frames=300))
+        highest = max(np.nanmax(method.force_magnitude()) for method in result.methods.values())
+        for limit, drawn in ((highest, True), (2.0 * highest, False)):
+            result.scene = lambda name, limit=limit: limit
+            self.assertEqual("limit" in time_panels(result)["panels"][0], drawn)
+
+    def test_says_over_which_frames_recall_is(self):
+        for frames, words in ((300, "so far"), (3000, "in the last 40 probed frames")):
+            result = Result(write_result(self.path(f"{frames}.h5"), frames=frames))
+            (title,) = [panel["title"] for panel in time_panels(result)["panels"] if panel["id"] == "recall"]
+            self.assertIn(words, title)
+
 
 OCTAHEDRON = "OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n" + "".join(
     f"3 {a} {b} {c}\n" for a, b, c in ((0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)))
@@ -111,12 +125,27 @@ class WhatWasRun(Scratch):
         result = Result(write_result(self.path("hard.h5")))
         result.experiment.update({"loop": {"kind": "closed"}, "driver": {"kind": "lockstep", "search_every_frames": 20, "search_latency_frames": 15}})
         told = report.what_was_run(result)
-        for words in ("in a closed loop", "F_max ", "original and improved: a search every 20 frames, its set there 15 frames later"):
+        for words in ("in a closed loop", "F_max ", "original and improved: a search begins every 20 frames and its contacts are in use 15 frames later"):
             self.assertIn(words, told)
         result.experiment.update({"loop": {"kind": "open"}, "driver": {"kind": "realtime"}})
         told = report.what_was_run(result)
         self.assertNotIn("closed loop", told)
-        self.assertNotIn("a search every", told)
+        self.assertNotIn("a search begins every", told)
+
+    def test_names_all_methods_that_the_device_clips(self):
+        file = write_result(self.path("clipped.h5"))
+        with h5py.File(file, "a") as h5:
+            for label, share in (("original", 0.3), ("improved", 0.02)):
+                h5[f"methods/{label}/summary/force_clipped_share"] = [share]
+        result = Result(file)
+        self.assertEqual(report.clipping_beside(result, ["original: the device clips the force in 30 % of the frames"]),
+                         ["The device clips other methods, too: improved in 2 % of the frames in contact"])
+        self.assertEqual(report.clipping_beside(result, []), [])
+
+    def test_provenance_is_in_words(self):
+        self.assertEqual([report.in_words(*row) for row in (("git_commit", "abc"), ("machine: l1_data_cache_bytes", "49152"),
+                                                            ("machine: memory_bytes", "25276026880"), ("result hash: my_own", "1f"))],
+                         [("git commit", "abc"), ("machine: L1 data cache", "48 KiB"), ("machine: memory", "24,105 MiB"), ("result hash: my_own", "1f")])
 
 
 class Scene(Scratch):
@@ -270,8 +299,8 @@ class Page(Scratch):
         for words in ('<section id="figure7">', "Figure 7, frame by frame", 'id="claims"', '<th scope="row">K9</th>', "The paper states neither"):
             self.assertIn(words, papers)
             self.assertNotIn(words, own)
-        for words in ("Over time", "Frame by frame"):
-            self.assertIn(f"<h2>{words}</h2>", own)
+        self.assertIn("<h2>Over time, frame by frame</h2>", own)
+        self.assertIn('<details id="over_time">', own)
 
     def test_variants_of_an_experiment_are_told_apart_and_share_ranges(self):
         other = write_result(self.path("other.h5"), maximum_force=6.0, settings={"device": "ideal"})
