@@ -104,6 +104,7 @@ void SceneSearch::for_each_near(const Pose& X_WM, WorkCounters& counters, const 
 
 template <class Set, class Find>
 void SceneSearch::gather(const Pose& X_WM, Set& of_pair, Set& set, WorkCounters& counters, const Find& find) {
+  if (has_own_force_) own_.assign(own_.size(), std::nullopt);
   if (pair_ != nullptr) {
     pair_->follow_deformation();
     if (!pair_->frame().differs()) {
@@ -130,21 +131,19 @@ void SceneSearch::add_own_wrench(const Method& method, const ObjectPair& pair, c
   if (!has_own_force_) return;
   const std::optional<OwnWrench> of_pair = own_wrench_of(method);
   if (!of_pair) return;
+  const OwnWrench own{place.X_WF.direction(of_pair->force), place.X_WF.direction(of_pair->torque),
+                      place.X_WF.point(of_pair->about + place.origin_F)};
   const auto add = [&](std::size_t mover, double sign) {
-    const OwnWrench own{sign * place.X_WF.direction(of_pair->force),
-                        sign * place.X_WF.direction(of_pair->torque),
-                        place.X_WF.point(of_pair->about + place.origin_F)};
     std::optional<OwnWrench>& sum = own_[mover];
     if (!sum) sum = OwnWrench{.about = own.about};
-    sum->torque += own.torque_about(sum->about);
-    sum->force += own.force;
+    sum->torque += sign * own.torque_about(sum->about);
+    sum->force += sign * own.force;
   };
   add(pair.mover, 1.0);
   if (scene_->is_mover(pair.other)) add(pair.other, -1.0);
 }
 
 void SceneSearch::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
-  own_.assign(own_.size(), std::nullopt);
   gather(X_WM, of_pair_, lmds, counters,
          [&](Method& method, const Pose& X_FM, LmdSet& found) { method.search(X_FM, found, counters); });
   if (pair_ != nullptr) return;

@@ -60,6 +60,14 @@ class Deduplicator {
   std::uint32_t mark_ = 0;  ///< One a node: fewer than 2^29.
 };
 
+/// @param shape  null: of the mesh itself
+void append_corners(const Surface& surface, const ShapeComplex* shape, const FeatureId& feature,
+                    std::vector<std::int32_t>& corners) {
+  if (shape != nullptr) return shape->append_corners(surface, feature, corners);
+  const FeatureCorners own(surface, feature);
+  corners.insert(corners.end(), own.view().begin(), own.view().end());
+}
+
 /// Of one thread. Not to be held while it waits for other tasks: it may work on them.
 struct BuildScratch {
   Deduplicator deduplicator;
@@ -152,13 +160,7 @@ class Builder {
   bool build_child(std::size_t node_index, const Range& range, std::vector<std::int32_t>& vertices,
                    BuildScratch& scratch) {
     if (range.size() > 1) return build_node(node_index, range, vertices, scratch);
-    const FeatureId feature = items_[range.begin].ref.feature_id();
-    if (shape_ != nullptr && shape_->is_lead_of_several(feature)) {
-      shape_->append_corners(surface_, feature, vertices);
-      return true;
-    }
-    const FeatureCorners corners(surface_, feature);
-    vertices.insert(vertices.end(), corners.view().begin(), corners.view().end());
+    append_corners(surface_, shape_, items_[range.begin].ref.feature_id(), vertices);
     return true;
   }
 
@@ -365,12 +367,7 @@ bool bounds_what_is_below(const WideHierarchy& hierarchy, const Surface& surface
     const WideNode& node = hierarchy.nodes[n];
     const Vec3 centre = centre_of_lane(node, lane), axis = axis_of_lane(node, lane);
     corners.clear();
-    if (shape != nullptr && shape->is_lead_of_several(feature)) {
-      shape->append_corners(surface, feature, corners);
-    } else {
-      const FeatureCorners own(surface, feature);
-      corners.assign(own.view().begin(), own.view().end());
-    }
+    append_corners(surface, shape, feature, corners);
     return std::ranges::all_of(corners, [&](std::int32_t corner) {
       const Vec3 p = surface.mesh.vertices[static_cast<std::size_t>(corner)] - hierarchy.origin;
       if (p.norm() > hierarchy.radius) return false;

@@ -9,7 +9,7 @@
 #define HWY_TARGET_INCLUDE "lmdbench/methods/certified/build/wide_bounds.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
-#include <lmdbench/methods/certified/traverse/wide_criteria-inl.h>
+#include <lmdbench/methods/certified/layout/wide_numbers-inl.h>
 
 #include <hwy/highway.h>
 
