@@ -7,7 +7,8 @@ Runs of each scene, in the same program, without a device's clipping: certified 
 evenly spread over its frames in contact; all methods along a few frames about the largest step of the plain sum, ten- and hundredfold
 subdivided; and certified under `shared` along all of these, which is the continuous force. The plain sum of certified's complete set is the
 other truth. A force that is a rival's own has a scale of its own: it gets the one factor a scene and truth that brings it nearest to
-the truth. Tables go to rivals.md, the figure to rivals.png in --out.
+the truth. Last, `lmdbench stability` taps each method at rest in four closed loops, and finds the largest stiffness at which it does not
+shake. Tables go to rivals.md, the figure to rivals.png in --out.
 
     cmake -S experiments/rivals -B build/rivals && cmake --build build/rivals
     scripts/figures/rivals.py --out results/rivals"""
@@ -29,11 +30,13 @@ import matplotlib.pyplot as plt
 
 SCENES = {
     "bunny-hard": "experiments/bunny-hard.json",
+    "bunny-soft": "experiments/bunny-soft.json",
     "box on a slab": "experiments/extreme/box-on-table.json",
     "peg in a slot": "experiments/peg-in-slot.json",
     "gears": "experiments/extreme/gears.json",
     "rod in a bore": "experiments/extreme/peg-round.json",
 }
+CLOSED_LOOPS = ("box", "wedge", "peg", "bunny")
 # Label, entry of the experiment, colour and mark.
 RIVALS = (
     ("vertices", {"name": "vertices"}, style.ORANGE, "v"),
@@ -50,6 +53,16 @@ SHARED = "certified, shared"
 SUBDIVISIONS = (1, 10, 100)
 TRUTH_FRAMES = 10
 LEAST_STEP = 1e-5  # of F_max; smaller errors are drawn here
+
+
+def entries(methods):
+    return [{**entry, "label": label, "force_law": "exponential"} for label, entry, *_ in methods]
+
+
+def plugin_words(arguments, methods):
+    names = {entry["name"] for entry in methods}
+    return [word for name in sorted({entry["name"] for _, entry, *_ in RIVALS} & names)
+            for word in ("--plugin", os.path.join(arguments.plugins, f"{name}.so"))]
 
 
 def scaled_error(forces, truth):
@@ -88,8 +101,7 @@ class Scene:
     def __init__(self, arguments, name):
         self.arguments, self.name, self.file = arguments, name, SCENES[name]
         self.slug = name.replace(" ", "-")
-        ours = [{**entry, "label": label, "force_law": "exponential"} for label, entry, *_ in OURS]
-        rivals = [{**entry, "label": label, "force_law": "exponential"} for label, entry, *_ in RIVALS]
+        ours, rivals = entries(OURS), entries(RIVALS)
         both = self.run("path", ours, "sum", repetitions=3), self.run("path", ours[:1], "shared", repetitions=3)
         self.path, self.path_shared = both
         self.maximum = self.path.maximum_force()
@@ -122,11 +134,8 @@ class Scene:
                         "/driver/block_frames": 50, "/probes": {"truth": {"stride_frames": truth}, "fcl": {"stride_frames": 0}}}
             if path is not None:
                 settings.update({"/path": {"file": path, "interpolation": "linear"}})
-            names = {entry["name"] for entry in methods}
-            plugins = [word for name in sorted({entry["name"] for _, entry, *_ in RIVALS} & names)
-                       for word in ("--plugin", os.path.join(self.arguments.plugins, f"{name}.so"))]
-            printed([self.arguments.program, "run", self.file, "--out", out, *plugins, "--limit", "plugin-seconds=300",
-                     *settings_words(settings)], allowed=(0, 1))
+            printed([self.arguments.program, "run", self.file, "--out", out, *plugin_words(self.arguments, methods),
+                     "--limit", "plugin-seconds=300", *settings_words(settings)], allowed=(0, 1))
         return Result(out)
 
     def rows(self):
@@ -171,7 +180,31 @@ class Scene:
         return [factor * step / self.maximum for step in largest_steps(method.read("force"))]
 
 
-def tables(all_rows):
+def closed_loops(arguments):
+    """{label: {scene: critical over exact stiffness, or why there is none}}, of the hard profile."""
+    found = {}
+    for scene in CLOSED_LOOPS:
+        for law, methods in (("shared", entries(OURS[:1])), ("sum", entries(OURS + RIVALS))):
+            out = os.path.join(arguments.out, f"stability-{scene}-{law}.json")
+            if not os.path.exists(out):
+                file = f"experiments/stability/{scene}.json"
+                with open(file, encoding="utf-8") as stream:
+                    hard = json.load(stream)["force"][0]
+                write_text(printed([arguments.program, "stability", file, "--json", "--seconds", str(arguments.stability_seconds),
+                                    *plugin_words(arguments, methods),
+                                    *settings_words({"/methods": methods, "/force": {**hard, "aggregation": law}})], allowed=(0, 3)),
+                           arguments.out, os.path.basename(out))
+            with open(out, encoding="utf-8") as stream:
+                for row in json.load(stream):
+                    label = SHARED if law == "shared" else row["method"]
+                    critical = row["critical_stiffness_n_per_m"]
+                    has_answer = critical is not None and row["clean_until"] != "undecided"
+                    found.setdefault(label, {})[scene] = (f"{critical / row['exact_n_per_m']:.4f}" if has_answer
+                                                          else row["clean_until"].replace("_", " "))
+    return found
+
+
+def tables(all_rows, loops):
     lines = []
     for name, rows in all_rows.items():
         lines += [f"## {name}", ""]
@@ -182,6 +215,8 @@ def tables(all_rows):
     labels = list(next(iter(all_rows.values())))
     lines += table(("method", *all_rows), [(label, *(", ".join(shown(step, 2) for step in rows[label]["steps"])
                                                      for rows in all_rows.values())) for label in labels])
+    lines += ["", "## Largest clean stiffness in a closed loop, over the exact boundary of one linear contact", ""]
+    lines += table(("method", *CLOSED_LOOPS), [(label, *(loops[label][scene] for scene in CLOSED_LOOPS)) for label in labels])
     return "\n".join(lines)
 
 
@@ -222,11 +257,13 @@ def main(words=None):
     parser.add_argument("--scenes", nargs="+", default=list(SCENES), choices=list(SCENES), metavar="SCENE")
     parser.add_argument("--poses", type=int, default=100, help="poses in contact that rivals are put to")
     parser.add_argument("--stretch", type=int, default=4, help="frames that are subdivided")
+    parser.add_argument("--stability-seconds", type=float, default=300, help="a method's search in a closed loop ends after these")
     parser.add_argument("--out", default="results/rivals")
     arguments = parser.parse_args(words)
     all_rows = {name: Scene(arguments, name).rows() for name in arguments.scenes}
-    write_text(json.dumps(all_rows, indent=1), arguments.out, "rivals.json")
-    print(write_text(tables(all_rows), arguments.out, "rivals.md"))
+    loops = closed_loops(arguments)
+    write_text(json.dumps({"scenes": all_rows, "closed_loops": loops}, indent=1), arguments.out, "rivals.json")
+    print(write_text(tables(all_rows, loops), arguments.out, "rivals.md"))
     draw(all_rows, arguments.out)
     return 0
 

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/force/aggregation.h>
+#include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/phantom/stability_boundary.h>
 #include <lmdbench/stability/stability_search.h>
 
@@ -14,7 +16,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <tuple>
@@ -158,6 +162,48 @@ TEST(StabilitySearch, IsNearTheBoundaryWhereEncodersCount) {
     EXPECT_NEAR(row.critical_stiffness_n_per_m, row.exact_n_per_m, 0.05 * row.exact_n_per_m) << resolution;
     EXPECT_TRUE(clean_at(row.critical_stiffness_n_per_m)) << resolution;
     EXPECT_FALSE(clean_at(1.05 * row.exact_n_per_m)) << resolution;
+  }
+}
+
+/// Another method with the experiment's law, or its double, as a force of its own.
+class OwnLaw : public Method, public HasOwnWrench {
+ public:
+  OwnLaw(std::unique_ptr<Method> method, const ForceProfile& profile)
+      : method_(std::move(method)), profile_(profile) {}
+  const MethodDescription& description() const override { return method_->description(); }
+  void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    method_->search(X_WM, lmds, counters);
+    const Wrench wrench = sum_forces(lmds, profile_, X_WM.translation);
+    own_ = {.force = wrench.force, .torque = wrench.torque, .about = X_WM.translation};
+  }
+  void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
+    search(X_WM, lmds, counters);
+  }
+  std::optional<OwnWrench> own_wrench(std::size_t /*mover*/) const override { return own_; }
+
+ private:
+  std::unique_ptr<Method> method_;
+  ForceProfile profile_;
+  OwnWrench own_;
+};
+
+/// A force of a method's own is scaled, measured and shaken like the law that it equals.
+TEST(StabilitySearch, OwnForceIsTriedAsTheLawThatItEquals) {
+  const Experiment experiment = load_experiment(testing::WALL_FILE, pressed({}));
+  const PreparedRun prepared = prepare(experiment);
+  const DrivenMethod law = driven_methods(experiment, prepared).at(0);
+  DrivenMethod own = law;
+  own.make = [&] { return std::make_unique<OwnLaw>(law.make(), law.profile); };
+  for (const auto& [stiffness, clean] : {std::pair{1550.0, true}, std::pair{1650.0, false}}) {
+    const auto trial_of = [&, s = stiffness](DrivenMethod method) {
+      method.profile.scale_force(s / (law.profile.maximum_force / law.profile.cutoff));
+      return try_stiffness(experiment, prepared.input, method, {});
+    };
+    const StabilityTrial of_own = trial_of(own), of_law = trial_of(law);
+    EXPECT_NEAR(of_own.stiffness_n_per_m, stiffness, 1e-6 * stiffness);
+    EXPECT_NEAR(of_own.force_at_rest_W.z(), of_law.force_at_rest_W.z(), 1e-9);
+    EXPECT_EQ(of_own.outcome.clean(), clean);
+    EXPECT_EQ(of_law.outcome.clean(), clean);
   }
 }
 

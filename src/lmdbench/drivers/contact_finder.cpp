@@ -36,10 +36,12 @@ SurfaceSample turned_round(const SurfaceSample& sample) {
 }
 
 /// Unset where the method has none.
-std::optional<Wrench> own_force_of(const Method* method, std::size_t mover, const Vec3& reference_W) {
+std::optional<Wrench> own_force_of(const Method* method, std::size_t mover, const ForceProfile& profile,
+                                   const Vec3& reference_W) {
   const auto own = method != nullptr ? own_wrench_of(*method, mover) : std::nullopt;
   if (!own) return std::nullopt;
-  return Wrench{own->force, own->torque_about(reference_W), std::numeric_limits<double>::quiet_NaN()};
+  return Wrench{profile.own_scale * own->force, profile.own_scale * own->torque_about(reference_W),
+                std::numeric_limits<double>::quiet_NaN()};
 }
 
 }  // namespace
@@ -146,7 +148,7 @@ void ContactFinder::split(const LmdSet& lmds) {
 
 Wrench ContactFinder::wrench_on(std::size_t mover, const ForceProfile& profile, const Vec3& reference_W,
                                 const Method* method) const {
-  if (const auto own = own_force_of(method, mover, reference_W)) return *own;
+  if (const auto own = own_force_of(method, mover, profile, reference_W)) return *own;
   const Part& part = parts_[mover];
   if (is_sum()) return sum_forces(part.lmds, profile, reference_W);
   return aggregation_.combine({part.critical, part.merges, part.samples, minimum_area_}, profile,
@@ -159,7 +161,7 @@ Wrench ContactFinder::combine(const LmdSet& lmds, const ForceProfile& profile, c
     split(lmds);
     return wrench_on(scene_.held, profile, reference_W, method);
   }
-  if (const auto own = own_force_of(method, 0, reference_W)) return *own;
+  if (const auto own = own_force_of(method, 0, profile, reference_W)) return *own;
   if (is_sum()) return sum_forces(lmds, profile, reference_W);
   take(lmds);
   return aggregation_.combine({critical_, merges_, samples_, minimum_area_}, profile, reference_W);

@@ -39,6 +39,15 @@ struct ForceProfile {
   double sharpness = 4.0;            ///< k of the exponential law; k -> 0 is linear. Dimensionless.
   /// The length of the summed force is clipped to this [N], if not by the device to less.
   double largest_sum = std::numeric_limits<double>::infinity();
+  /// Factor of a force that a method has of its own (own_wrench.h): the law does not shape it.
+  double own_scale = 1.0;
+
+  /// F_max and all that is measured by it, times a factor.
+  void scale_force(double factor) {
+    maximum_force *= factor;
+    largest_sum *= factor;
+    own_scale *= factor;
+  }
 };
 
 /// Checks that a profile can be evaluated: 0 <= saturation_distance < cutoff, maximum_force > 0,

@@ -153,8 +153,7 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
       driver.search_latency_frames = age;
       for (const double stiffness : grid.stiffness_n_per_m) {
         DrivenMethod scaled = methods[m];
-        scaled.profile.maximum_force *= stiffness / at_start.stiffness;
-        scaled.profile.largest_sum *= stiffness / at_start.stiffness;
+        scaled.profile.scale_force(stiffness / at_start.stiffness);
         for (std::int64_t seed = 1; seed <= grid.seeds; ++seed) {
           StabilityMapRun run;
           run.method = choice.entry;

@@ -148,8 +148,7 @@ class Search {
     if (trials_ >= budget_.trials) throw BudgetSpent();
     ++trials_;
     DrivenMethod scaled = method_;
-    scaled.profile.maximum_force *= scale;
-    scaled.profile.largest_sum *= scale;
+    scaled.profile.scale_force(scale);
     const std::string phase =
         fmt::format("{} trial {}{}", method_.label, trials_,
                     best_ > 0.0 ? fmt::format(", clean to {:.4g} N/m", best_) : std::string());

@@ -24,6 +24,8 @@ constexpr int CYCLES = SKIPPED_CYCLES + 2 * WINDOW_CYCLES;
 constexpr int REST_STEPS = 64;  ///< Steps over a cutoff to find the pose under the push.
 constexpr int REST_BITS = 30;   ///< Precision of that pose.
 
+constexpr double SLOPE_STEP = 1e-4;  ///< Half the base of a central difference, in cutoffs.
+
 /// Stands for a swing that died down or escaped: ten times the amplitude a window.
 constexpr double DECIDED_GROWTH = std::numbers::ln10;
 
@@ -139,6 +141,21 @@ FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& meth
   return run_lockstep({method}, held, driver, {}).front().frames.back();
 }
 
+/// K_eff of the set; of a force of the method's own, which knows none, its central difference along
+/// it, 0 without force.
+double contact_stiffness(const FrameRecord& here, const Pose& X_WM,
+                         const std::function<FrameRecord(const Pose&)>& held, double cutoff) {
+  if (!std::isnan(here.effective_stiffness)) return here.effective_stiffness;
+  const Vec3 along_W = here.force.normalized();
+  const double step = SLOPE_STEP * cutoff;
+  const auto force_at = [&](double way) {
+    Pose moved = X_WM;
+    moved.translation += way * along_W;
+    return held(moved).force.dot(along_W);
+  };
+  return (force_at(-step) - force_at(step)) / (2.0 * step);
+}
+
 /// Moves the pose along the push until the contact carries it: whole steps, then TOMS 748.
 /// @return nothing where no pose within a cutoff of the first one does
 std::optional<Pose> rest_under_push(const Pose& start, const Vec3& push_W,
@@ -223,17 +240,19 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   held.loop = {};
   held.frames = hold_frames;
 
+  const auto at = [&](const Pose& X_WM) { return held_at(X_WM, held, method, driver); };
+
   StabilityTrial trial;
   if (!loop.push_n.isZero(0.0)) {
-    const std::optional<Pose> pose = rest_under_push(
-        held.poses.front(), loop.push_n,
-        [&](const Pose& X_WM) { return held_at(X_WM, held, method, driver); }, method.profile.cutoff);
+    const std::optional<Pose> pose =
+        rest_under_push(held.poses.front(), loop.push_n, at, method.profile.cutoff);
     trial.carried = pose.has_value();
     if (!trial.carried) return trial;
     held.poses.front() = *pose;
   }
-  const FrameRecord at_rest = held_at(held.poses.front(), held, method, driver);
-  trial.stiffness_n_per_m = at_rest.effective_stiffness;
+  const FrameRecord at_rest = at(held.poses.front());
+  const bool own_force = std::isnan(at_rest.effective_stiffness);
+  trial.stiffness_n_per_m = contact_stiffness(at_rest, held.poses.front(), at, method.profile.cutoff);
   trial.force_at_rest_W = at_rest.force;
   Rest rest;
   rest.pose = held.poses.front();
@@ -241,9 +260,10 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   rest.rendered = input.device.render({at_rest.force, at_rest.torque, 0.0});
   if (!loop.rotation) rest.rendered.torque.setZero();
   trial.clipped = at_rest.force_clipped || (loop.rotation && rest.rendered.torque_clipped);
-  rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
-                          at_rest.minimum_distance - method.profile.saturation_distance);
-  trial.in_contact = at_rest.effective_stiffness > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;
+  rest.range_m = own_force ? at_rest.force.norm() / trial.stiffness_n_per_m
+                           : std::min(method.profile.cutoff - at_rest.minimum_distance,
+                                      at_rest.minimum_distance - method.profile.saturation_distance);
+  trial.in_contact = trial.stiffness_n_per_m > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;
   trial.saturated = !trial.in_contact && at_rest.minimum_distance <= method.profile.saturation_distance;
   if (!trial.in_contact || trial.clipped) return trial;
   double felt_mass = moving_mass(loop.dynamics);

@@ -16,7 +16,8 @@
 ///     of one that turns as well, the point nearest to it on the contact force's line.
 ///  3. The trial ends after SKIPPED_CYCLES + 2 WINDOW_CYCLES oscillations, when the swing has died
 ///     down or left the contact's range, or after MOST_SWING_FRAMES.
-/// Method, force law, device clipping and search period are those of a run.
+/// Method, force law, device clipping and search period are those of a run. A force of the method's
+/// own has its stiffness by central difference; the trial takes force over stiffness for its range.
 ///
 /// With Coulomb friction the loop is not linear, and a tap's result depends on its size: friction f
 /// takes 4 f a from a swing of amplitude a in each oscillation, while the sampled contact gives
