@@ -25,10 +25,16 @@ TOUCHING = "src/lmdbench/methods/certified/decide/touching_pairs.cpp"
 LIFETIME = "src/lmdbench/methods/certified/keep/wide_lifetime.h"
 POLICY = "src/lmdbench/methods/certified/keep/coherence_policy.h"
 REFIT = "src/lmdbench/methods/certified/deform/wide_refit.cpp"
+BUILD = "src/lmdbench/methods/certified/build/build_wide_hierarchy.cpp"
+PARTITION = "src/lmdbench/methods/certified/build/wide_partition.cpp"
 TRAVERSAL = "src/lmdbench/methods/certified/traverse/wide_traversal.h"
 # name: file, text around the value, values
 CONSTANTS = {
     "CONE_GAIN": (TRAVERSAL, "CONE_GAIN = {}F", ("0.05", "0.1", "0.2", "0.4", "100.0")),
+    "PARALLEL_COST": (PARTITION, "PARALLEL_COST = {}F;", ("0.05", "0.1", "0.2", "0.4", "100.0")),
+    "LARGEST_TURNED": (PARTITION, "LARGEST_TURNED = {};", ("0", "64", "512", "4096")),
+    # --only LEAST_LONG_SHARE experiments/extreme/peg-square.json
+    "LEAST_LONG_SHARE": (BUILD, "LEAST_LONG_SHARE = {};", ("0.0", "0.1", "0.25", "0.5", "2.0")),
     "LARGEST_HORIZON": (FORECAST, "LARGEST_HORIZON = {},", ("1.0", "2.0", "4.0", "8.0", "16.0")),
     "HORIZON_CUTOFFS": (FORECAST, "HORIZON_CUTOFFS = {},", ("0.25", "0.5", "1.0", "2.0", "4.0")),
     "MOST_CORNER_PAIRS": (TOUCHING, "MOST_CORNER_PAIRS = {};", ("0", "16", "64", "1024")),  # experiments/extreme/peg-square.json moves it

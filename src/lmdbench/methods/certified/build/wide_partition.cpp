@@ -7,9 +7,11 @@
 #include <lmdbench/shape/shape_complex.h>
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -21,11 +23,64 @@ namespace {
 /// Bins of a selection; the library selects from smaller sets.
 constexpr std::size_t BINS = 256;
 
+/// Sets up to this size try all turns: most node tests are of those. Larger ones take the first
+/// (`scripts/tuned_constants.py --only LARGEST_TURNED`).
+constexpr std::size_t LARGEST_TURNED = 512;
+
+/// Cost of a set's cone of directions, where they are parallel; 1 more where they are all
+/// (`scripts/tuned_constants.py --only PARALLEL_COST`).
+constexpr float PARALLEL_COST = 0.2F;
+
+/// Cosine and sine of the turns of a division's direction: 0, 22.5, -22.5, 45, -45 degrees.
+constexpr std::array<std::array<float, 2>, 5> TURNS{
+    {{1.0F, 0.0F}, {0.92388F, 0.38268F}, {0.92388F, -0.38268F}, {0.70711F, 0.70711F}, {0.70711F, -0.70711F}}};
+
+using Vec3f = Eigen::Vector3f;
+
 /// An item while sets are divided: small, as it is moved once a level.
 struct Place {
-  Eigen::Vector3f centre;  ///< in the hierarchy's frame
-  std::uint32_t item;      ///< index, in the order of features
+  Vec3f centre;        ///< in the hierarchy's frame
+  Vec3f axis;          ///< of its cap
+  std::uint32_t item;  ///< index, in the order of features
 };
+
+/// The two directions in which places spread most, widest first.
+struct Spread {
+  Vec3f widest, second;
+
+  explicit Spread(std::span<const Place> places) {
+    Vec3f mean = Vec3f::Zero();
+    for (const Place& place : places) mean += place.centre;
+    mean /= static_cast<float>(places.size());
+    Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
+    for (const Place& place : places) {
+      const Vec3f from_mean = place.centre - mean;
+      covariance += from_mean * from_mean.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(covariance);
+    widest = axes.eigenvectors().col(2);
+    second = axes.eigenvectors().col(1);
+  }
+};
+
+/// Of a set as one child: its tests grow with the squares of its radius and of its cone, which the
+/// mean of the axes tells of.
+float cost_of(std::span<const Place> places) {
+  Eigen::Array3f low = places[0].centre, high = low;
+  Vec3f axes = Vec3f::Zero();
+  for (const Place& place : places) {
+    low = low.min(place.centre.array());
+    high = high.max(place.centre.array());
+    axes += place.axis;
+  }
+  const Vec3f middle = 0.5F * (low + high);
+  float squared_radius = 0.0F;
+  for (const Place& place : places)
+    squared_radius = std::max(squared_radius, (place.centre - middle).squaredNorm());
+  axes /= static_cast<float>(places.size());
+  const float turned = PARALLEL_COST + std::sqrt(std::max(0.0F, 1.0F - axes.squaredNorm()));
+  return squared_radius * turned * turned;
+}
 
 Place make_place(const Surface& surface, const ShapeComplex* shape, const Vec3& origin, const WideItem& item,
                  std::size_t index) {
@@ -43,7 +98,8 @@ Place make_place(const Surface& surface, const ShapeComplex* shape, const Vec3& 
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  return {(0.5 * (low + high) - origin).cast<float>(), static_cast<std::uint32_t>(index)};
+  return {(0.5 * (low + high) - origin).cast<float>(), item.cap.axis.cast<float>(),
+          static_cast<std::uint32_t>(index)};
 }
 
 class Partition {
@@ -85,28 +141,36 @@ class Partition {
     }
   }
 
-  /// Moves the least `count` places to the front, along the longest side of the box.
+  /// Moves the least `count` places to the front, along the direction that leaves the cheaper halves.
   void select(Places places, std::size_t count) {
-    Eigen::Array3f low = places[0].centre, high = low;
-    for (const Place& place : places) {
-      low = low.min(place.centre.array());
-      high = high.max(place.centre.array());
+    const Spread spread(places);
+    Vec3f along = spread.widest;
+    if (places.size() > LARGEST_TURNED) return select_by_bins(places, count, along);
+    float least = std::numeric_limits<float>::infinity();
+    for (const auto& [cosine, sine] : TURNS) {
+      const Vec3f turned = cosine * spread.widest + sine * spread.second;
+      select_along(places, count, turned);
+      const float cost = cost_of(places.first(count)) + cost_of(places.subspan(count));
+      if (cost >= least) continue;
+      least = cost;
+      along = turned;
     }
-    int axis = 0;
-    const float extent = (high - low).maxCoeff(&axis);
-    if (places.size() > BINS) {
-      select_by_bins(places, count, axis, low[axis], static_cast<float>(BINS) / extent);
-    } else {
-      select_by_axis(places, count, axis);
-    }
+    select_along(places, count, along);
   }
 
-  /// As select_by_axis, by one count and one move: the library's way mispredicts a branch a
+  /// As select_along, by one count and one move: the library's way mispredicts a branch a
   /// comparison.
-  void select_by_bins(Places places, std::size_t count, int axis, float low, float bins_per_metre) {
-    const auto bin_of = [=](const Place& place) {
+  void select_by_bins(Places places, std::size_t count, const Vec3f& along) {
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (const Place& place : places) {
+      const float at = along.dot(place.centre);
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    const float bins_per_metre = static_cast<float>(BINS) / (high - low);
+    const auto bin_of = [&](const Place& place) {
       // No number, or infinite, in a set without extent: the last bin.
-      const float bin = (place.centre[axis] - low) * bins_per_metre;
+      const float bin = (along.dot(place.centre) - low) * bins_per_metre;
       return bin < static_cast<float>(BINS - 1) ? static_cast<std::size_t>(bin) : BINS - 1;
     };
     std::array<std::uint32_t, BINS> sizes{};
@@ -122,13 +186,13 @@ class Partition {
       *next[(own >= bin ? 1u : 0u) + (own > bin ? 1u : 0u)]++ = place;
     }
     std::copy(sorted.begin(), sorted.end(), places.begin());
-    select_by_axis(places.subspan(before, sizes[bin]), count - before, axis);
+    select_along(places.subspan(before, sizes[bin]), count - before, along);
   }
 
-  static void select_by_axis(Places places, std::size_t count, int axis) {
+  static void select_along(Places places, std::size_t count, const Vec3f& along) {
     std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
-                     [axis](const Place& a, const Place& b) {
-                       const float at_a = a.centre[axis], at_b = b.centre[axis];
+                     [&along](const Place& a, const Place& b) {
+                       const float at_a = along.dot(a.centre), at_b = along.dot(b.centre);
                        return at_a != at_b ? at_a < at_b : a.item < b.item;
                      });
   }

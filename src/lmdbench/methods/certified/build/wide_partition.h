@@ -27,7 +27,10 @@ struct WideDivision {
 std::size_t count_wide_nodes(std::size_t size);
 
 /// Puts the items into the order of the tree: every node's children are consecutive ranges of its
-/// own (WideDivision). The feature breaks ties, so that the result depends on the mesh alone.
+/// own (WideDivision). Sets are divided across the direction in which they spread most, small ones
+/// across the turn of it that leaves the halves with the smallest discs and cones: a part that lies
+/// askew in its frame gets as good a tree. The feature breaks ties, so that the result depends on
+/// the mesh alone.
 /// @param origin of the hierarchy
 void partition_wide_items(const Surface& surface, const ShapeComplex* shape, const Vec3& origin,
                           std::vector<WideItem>& items);
