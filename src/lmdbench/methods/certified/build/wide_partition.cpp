@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace lmdbench {
@@ -31,9 +32,9 @@ constexpr std::size_t LARGEST_TURNED = 512;
 /// (`scripts/tuned_constants.py --only PARALLEL_COST`).
 constexpr float PARALLEL_COST = 0.2F;
 
-/// Cosine and sine of the turns of a division's direction: 0, 22.5, -22.5, 45, -45 degrees.
-constexpr std::array<std::array<float, 2>, 5> TURNS{
-    {{1.0F, 0.0F}, {0.92388F, 0.38268F}, {0.92388F, -0.38268F}, {0.70711F, 0.70711F}, {0.70711F, -0.70711F}}};
+/// Cosine and sine of the turns of a division's direction: 0, 45 and -45 degrees.
+constexpr std::array<std::array<float, 2>, 3> TURNS{
+    {{1.0F, 0.0F}, {0.70711F, 0.70711F}, {0.70711F, -0.70711F}}};
 
 using Vec3f = Eigen::Vector3f;
 
@@ -63,21 +64,31 @@ struct Spread {
   }
 };
 
-/// Of a set as one child: its tests grow with the squares of its radius and of its cone, which the
+/// Where a place is along a direction; the item breaks ties.
+struct Key {
+  float at;
+  std::uint32_t item;
+  std::uint32_t place;  ///< Index in its set.
+
+  bool operator<(const Key& other) const { return at != other.at ? at < other.at : item < other.item; }
+};
+
+/// Of places as one child: its tests grow with the squares of its radius and of its cone, which the
 /// mean of the axes tells of.
-float cost_of(std::span<const Place> places) {
-  Eigen::Array3f low = places[0].centre, high = low;
+float cost_of(std::span<const Place> places, std::span<const Key> keys) {
+  Eigen::Array3f low = places[keys[0].place].centre, high = low;
   Vec3f axes = Vec3f::Zero();
-  for (const Place& place : places) {
+  for (const Key& key : keys) {
+    const Place& place = places[key.place];
     low = low.min(place.centre.array());
     high = high.max(place.centre.array());
     axes += place.axis;
   }
   const Vec3f middle = 0.5F * (low + high);
   float squared_radius = 0.0F;
-  for (const Place& place : places)
-    squared_radius = std::max(squared_radius, (place.centre - middle).squaredNorm());
-  axes /= static_cast<float>(places.size());
+  for (const Key& key : keys)
+    squared_radius = std::max(squared_radius, (places[key.place].centre - middle).squaredNorm());
+  axes /= static_cast<float>(keys.size());
   const float turned = PARALLEL_COST + std::sqrt(std::max(0.0F, 1.0F - axes.squaredNorm()));
   return squared_radius * turned * turned;
 }
@@ -144,18 +155,22 @@ class Partition {
   /// Moves the least `count` places to the front, along the direction that leaves the cheaper halves.
   void select(Places places, std::size_t count) {
     const Spread spread(places);
-    Vec3f along = spread.widest;
-    if (places.size() > LARGEST_TURNED) return select_by_bins(places, count, along);
-    float least = std::numeric_limits<float>::infinity();
+    if (places.size() > LARGEST_TURNED) return select_by_bins(places, count, spread.widest);
+    const auto spare = spare_of(places);
+    std::array<Key, LARGEST_TURNED> keys;
+    const std::span own(keys.data(), places.size());
+    std::optional<float> least;
     for (const auto& [cosine, sine] : TURNS) {
-      const Vec3f turned = cosine * spread.widest + sine * spread.second;
-      select_along(places, count, turned);
-      const float cost = cost_of(places.first(count)) + cost_of(places.subspan(count));
-      if (cost >= least) continue;
+      const Vec3f along = cosine * spread.widest + sine * spread.second;
+      for (std::uint32_t i = 0; i < own.size(); ++i)
+        own[i] = {along.dot(places[i].centre), places[i].item, i};
+      std::nth_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count), own.end());
+      const float cost = cost_of(places, own.first(count)) + cost_of(places, own.subspan(count));
+      if (least && !(cost < *least)) continue;
       least = cost;
-      along = turned;
+      for (std::size_t i = 0; i < own.size(); ++i) spare[i] = places[own[i].place];
     }
-    select_along(places, count, along);
+    std::copy(spare.begin(), spare.end(), places.begin());
   }
 
   /// As select_along, by one count and one move: the library's way mispredicts a branch a
@@ -178,8 +193,7 @@ class Partition {
     std::size_t before = 0, bin = 0;
     while (before + sizes[bin] <= count) before += sizes[bin++];
 
-    const auto sorted =
-        std::span(spare_).subspan(static_cast<std::size_t>(places.data() - places_.data()), places.size());
+    const Places sorted = spare_of(places);
     std::array<Place*, 3> next{sorted.data(), sorted.data() + before, sorted.data() + before + sizes[bin]};
     for (const Place& place : places) {
       const std::size_t own = bin_of(place);
@@ -195,6 +209,10 @@ class Partition {
                        const float at_a = along.dot(a.centre), at_b = along.dot(b.centre);
                        return at_a != at_b ? at_a < at_b : a.item < b.item;
                      });
+  }
+
+  Places spare_of(Places places) {
+    return std::span(spare_).subspan(static_cast<std::size_t>(places.data() - places_.data()), places.size());
   }
 
   std::vector<Place>& places_;
