@@ -69,7 +69,13 @@ apt_as_root() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3 "$@" </dev/null >&2
 }
 
-# build_preset PRESET [cmake option]...
+# build_normal PRESET [cmake option]...: all that ships and the programs of normal tests, not those of
+# "heavy" ones, of studies and of benchmarks.
+build_normal() {
+  (cd "$ROOT" && cmake --preset "$@" && cmake --build --preset "$1" --target lmdbench_normal --parallel "$JOBS")
+}
+
+# build_preset PRESET [cmake option]...: everything.
 build_preset() {
   local preset="$1"
   shift

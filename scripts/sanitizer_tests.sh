@@ -12,6 +12,6 @@ shift || true
 [[ $preset == asan-ubsan || $preset == tsan ]] ||
   die 2 "unknown sanitizer preset '$preset' (remedy: asan-ubsan or tsan)"
 "$ROOT/scripts/setup.sh"
-build_preset "$preset"
+build_normal "$preset"
 cd "$ROOT"
 ctest --preset "$preset" --label-exclude heavy --parallel "$JOBS" --no-tests=error "$@" </dev/null
