@@ -69,8 +69,8 @@ apt_as_root() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3 "$@" </dev/null >&2
 }
 
-# build_normal PRESET [cmake option]...: all that ships and the programs of normal tests, not those of
-# "heavy" ones, of studies and of benchmarks.
+# build_normal PRESET [cmake option]...: all that ships and the programs of normal tests, not those
+# of "heavy" ones, of studies and of benchmarks.
 build_normal() {
   (cd "$ROOT" && cmake --preset "$@" && cmake --build --preset "$1" --target lmdbench_normal --parallel "$JOBS")
 }

@@ -284,8 +284,8 @@ TEST(WideHierarchy, ABoundThatLosesAVertexIsSeen) {
   EXPECT_FALSE(bounds_what_is_below(bad, box, nullptr));
 }
 
-/// Turning a mesh in its frame changes its node tests by 3 % here; divided along the frame's axes it
-/// was 13 %.
+/// Turning a mesh in its frame changes its node tests by 3 % here; by divisions along the frame's
+/// axes it was 13 %.
 TEST(WideHierarchy, OfAPartThatLiesAskewIsAsGood) {
   const TriangleMesh ring = make_torus(1.0, 0.1, 96, 12);
   const auto tests_of = [&](const Eigen::Quaterniond& turn) {

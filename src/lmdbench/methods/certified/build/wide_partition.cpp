@@ -152,7 +152,7 @@ class Partition {
     }
   }
 
-  /// Moves the least `count` places to the front, along the direction that leaves the cheaper halves.
+  /// Moves the least `count` places to the front, along the direction with the cheaper halves.
   void select(Places places, std::size_t count) {
     const Spread spread(places);
     if (places.size() > LARGEST_TURNED) return select_by_bins(places, count, spread.widest);
