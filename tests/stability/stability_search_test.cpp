@@ -165,7 +165,7 @@ TEST(StabilitySearch, IsNearTheBoundaryWhereEncodersCount) {
   }
 }
 
-/// Another method with the experiment's law, or its double, as a force of its own.
+/// Another method's set under a law as a force of its own, and no set.
 class OwnLaw : public Method, public HasOwnWrench {
  public:
   OwnLaw(std::unique_ptr<Method> method, const ForceProfile& profile)
@@ -175,6 +175,7 @@ class OwnLaw : public Method, public HasOwnWrench {
     method_->search(X_WM, lmds, counters);
     const Wrench wrench = sum_forces(lmds, profile_, X_WM.translation);
     own_ = {.force = wrench.force, .torque = wrench.torque, .about = X_WM.translation};
+    lmds.clear();
   }
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     search(X_WM, lmds, counters);

@@ -54,7 +54,9 @@ class Measures(Scratch):
 
     def test_tables_and_figure(self):
         rows = rows_by_hand()
-        text = rivals.tables(rows)
+        loops = {label: dict.fromkeys(rivals.CLOSED_LOOPS, "no contact") for label in next(iter(rows.values()))}
+        text = rivals.tables(rows, loops)
+        self.assertIn("| proxy | no contact | no contact |", text)
         self.assertIn("| gcp (own force) | approximation |", text)
         self.assertIn("| proxy | 0.5, 0.05, 0 | 0.5, 0.05, 0 |", text)
         row = next(line for line in text.splitlines() if line.startswith("| proxy | force-only"))

@@ -316,7 +316,7 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
       }
     }
   }
-  EXPECT_GT(stood, 10000u);
+  EXPECT_GT(stood, 9000u);
   EXPECT_GT(far, 1000u);
   EXPECT_GT(ended, 20u);
 }

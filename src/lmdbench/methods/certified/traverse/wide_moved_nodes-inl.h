@@ -48,7 +48,7 @@ HWY_INLINE void move_rows(const float (*from)[WIDE_WIDTH], const WideTransform& 
 class MovedNodes {
  public:
   MovedNodes(const WideHierarchy& a, const WideTransform& X, std::vector<WideMovedNode>& moved)
-      : a_(a), X_(X), moved_(moved) {
+      : a_(a), to_other_(X), moved_(moved) {
     if (moved_.size() < MOVED_START) moved_.resize(MOVED_START);
     append(0);
   }
@@ -72,16 +72,16 @@ class MovedNodes {
     if (count_ == moved_.size()) moved_.resize(2 * moved_.size());
     WideMovedNode& moved = moved_[count_];
     const WideNode& own = a_.nodes[node];
-    move_rows(own.centre, X_, X_.translation, moved.centre);
-    move_rows(own.axis, X_, NO_TRANSLATION, moved.axis);
-    if (!a_.widths.empty()) move_rows(a_.widths[node].across, X_, NO_TRANSLATION, moved.across);
+    move_rows(own.centre, to_other_, to_other_.translation, moved.centre);
+    move_rows(own.axis, to_other_, NO_TRANSLATION, moved.axis);
+    if (!a_.widths.empty()) move_rows(a_.widths[node].across, to_other_, NO_TRANSLATION, moved.across);
     std::ranges::fill(moved.moved_child, 0u);
     moved.node = node;
     return static_cast<std::uint32_t>(count_++);
   }
 
   const WideHierarchy& a_;
-  const WideTransform& X_;
+  const WideTransform& to_other_;
   std::vector<WideMovedNode>& moved_;
   std::size_t count_ = 0;
 };

@@ -171,7 +171,7 @@ class Descent {
   }
 
  private:
-  template <bool OPEN_A>
+  template <bool OpensA>
   void test_block(WideStack& from) {
     const std::size_t count = std::min(from.size, BLOCK);
     from.size -= count;
@@ -187,7 +187,7 @@ class Descent {
     std::array<std::uint32_t, LOOK_AHEAD> opened;  // Places of moved nodes, or nodes.
     const auto look_at = [&](std::size_t i) HWY_ATTR {
       std::uint32_t& node = opened[i % LOOK_AHEAD];
-      if constexpr (OPEN_A) {
+      if constexpr (OpensA) {
         node = moved_.child(slots_a[i]);
         fetch(moved_.node(node));
       } else {
@@ -198,29 +198,29 @@ class Descent {
     };
     for (std::size_t ahead = 0; ahead < count + LOOK_AHEAD; ++ahead) {
       if (ahead >= LOOK_AHEAD)
-        test_pair<OPEN_A>(opened[ahead % LOOK_AHEAD], (OPEN_A ? slots_b : slots_a)[ahead - LOOK_AHEAD]);
+        test_pair<OpensA>(opened[ahead % LOOK_AHEAD], (OpensA ? slots_b : slots_a)[ahead - LOOK_AHEAD]);
       if (ahead < count) look_at(ahead);
     }
     count_.node_tests += count;
   }
 
   /// Tests the children of a node against the child in a slot of the other mesh.
-  template <bool OPEN_A>
+  template <bool OpensA>
   HWY_INLINE void test_pair(std::uint32_t opened, std::uint32_t probe_slot) {
-    const WideMovedNode& moved_a = moved_[OPEN_A ? opened : probe_slot / WIDE_WIDTH];
-    const std::uint32_t index_b = OPEN_A ? probe_slot / WIDE_WIDTH : opened, lane = probe_slot % WIDE_WIDTH;
+    const WideMovedNode& moved_a = moved_[OpensA ? opened : probe_slot / WIDE_WIDTH];
+    const std::uint32_t index_b = OpensA ? probe_slot / WIDE_WIDTH : opened, lane = probe_slot % WIDE_WIDTH;
     const WideNode &node_a = a_.nodes[moved_a.node], &node_b = b_.nodes[index_b];
     const WideWidths &widths_a = widths_of(a_, moved_a.node), &widths_b = widths_of(b_, index_b);
     const WidePlaces places_a(moved_a.centre, moved_a.axis,
                               a_.widths.empty() ? widths_a.across : moved_a.across);
     const WidePlaces places_b(node_b.centre, node_b.axis, widths_b.across);
-    const WideNode &node = OPEN_A ? node_a : node_b, &home = OPEN_A ? node_b : node_a;
-    const WidePlaces &places = OPEN_A ? places_a : places_b, &probe_places = OPEN_A ? places_b : places_a;
+    const WideNode &node = OpensA ? node_a : node_b, &home = OpensA ? node_b : node_a;
+    const WidePlaces &places = OpensA ? places_a : places_b, &probe_places = OpensA ? places_b : places_a;
     const WideProbe probe = probe_of(home, probe_places, lane);
 
     WideMasks masks;
     if constexpr (std::is_same_v<Widths, WideWidthTest>) {
-      const WideWidths &lanes = OPEN_A ? widths_a : widths_b, &of_probe = OPEN_A ? widths_b : widths_a;
+      const WideWidths &lanes = OpensA ? widths_a : widths_b, &of_probe = OpensA ? widths_b : widths_a;
       const WideWidthTest widths{
           lanes,
           {probe_places.across[0][lane], probe_places.across[1][lane], probe_places.across[2][lane]},
@@ -249,28 +249,28 @@ class Descent {
     // As choose_opening: the child with more to gain, where neither is a feature.
     const std::uint32_t opens_lane =
         of_feature |
-        (lanes_that_gain_more(node, opening_gain(probe.radius, probe.sine), OPEN_A) & ~kinds.features);
-    const std::uint32_t opens_a = OPEN_A ? opens_lane : ~opens_lane;
-    push<OPEN_A>(scratch_.opening_a, alive & ~found & opens_a, opened, probe_slot);
-    push<OPEN_A>(scratch_.opening_b, alive & ~found & ~opens_a, opened, probe_slot);
+        (lanes_that_gain_more(node, opening_gain(probe.radius, probe.sine), OpensA) & ~kinds.features);
+    const std::uint32_t opens_a = OpensA ? opens_lane : ~opens_lane;
+    push<OpensA>(scratch_.opening_a, alive & ~found & opens_a, opened, probe_slot);
+    push<OpensA>(scratch_.opening_b, alive & ~found & ~opens_a, opened, probe_slot);
 
     for (std::uint32_t left = found; left != 0; left &= left - 1) {
       const auto one = static_cast<std::uint32_t>(std::countr_zero(left));
       const WideRef child = WideRef::from_bits(node.child[one]);
-      const WidePair pair = OPEN_A ? WidePair{child, probe_ref} : WidePair{probe_ref, child};
+      const WidePair pair = OpensA ? WidePair{child, probe_ref} : WidePair{probe_ref, child};
       if ((masks.lmd >> one & 1u) != 0) scratch_.lmd_pairs.push_back(pair);
       if ((touch >> one & 1u) != 0) scratch_.touch_pairs.push_back(pair);
     }
   }
 
   /// Writes eight entries and keeps as many as there are lanes.
-  template <bool OPEN_A>
+  template <bool OpensA>
   static HWY_INLINE void push(WideStack& to, std::uint32_t lanes, std::uint32_t opened,
                               std::uint32_t probe_slot) {
     const hn::RebindToUnsigned<FloatTag> u;
     const LaneList& list = LANE_LISTS[lanes];
-    std::uint32_t* const slots = (OPEN_A ? to.a : to.b).data() + to.size;
-    std::uint32_t* const probes = (OPEN_A ? to.b : to.a).data() + to.size;
+    std::uint32_t* const slots = (OpensA ? to.a : to.b).data() + to.size;
+    std::uint32_t* const probes = (OpensA ? to.b : to.a).data() + to.size;
     for (std::size_t first = 0; first < WIDE_WIDTH; first += hn::Lanes(u)) {
       const auto chosen =
           hn::PromoteTo(u, hn::LoadU(hn::Rebind<std::uint8_t, decltype(u)>(), list.lane.data() + first));
