@@ -69,6 +69,15 @@ apt_as_root() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3 "$@" </dev/null >&2
 }
 
+# build_meshes PROGRAM [MESH]...: all meshes, or these. They come from Debian packages; images often
+# lack the package lists.
+build_meshes() {
+  local program="$1"
+  shift
+  "$program" mesh build "$@" </dev/null >&2 ||
+    { apt_as_root update && "$program" mesh build "$@" </dev/null >&2; }
+}
+
 # build_normal PRESET [cmake option]...: all that ships and the programs of normal tests, not those
 # of "heavy" ones, of studies and of benchmarks.
 build_normal() {

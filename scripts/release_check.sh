@@ -31,12 +31,8 @@ in_fresh_clone() {
 # of_each N: poses of each of N kinds that make POSES in all.
 of_each() { echo $(((POSES + $1 - 1) / $1)); }
 study() { build_preset release >&2 && build/release/lmdbench-study "$@" --seed "$SEED"; }
-# Meshes out of Debian packages, by which some studies begin; images often lack the lists of these.
-build_meshes() {
-  build_preset release >&2 || return
-  build/release/lmdbench mesh build </dev/null >&2 ||
-    { apt_as_root update && build/release/lmdbench mesh build </dev/null >&2; }
-}
+# Some studies begin by meshes that are fetched.
+all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; }
 generated_parts() { study parts --generator "$1" --poses "$(of_each 20)"; }
 
 part() {
@@ -52,7 +48,7 @@ part() {
   packages) scripts/package.sh --check ;;
   cluster) scripts/cluster_test.sh ;;
   mutants) scripts/mutants.sh ;;
-  completeness) build_meshes && study completeness --poses 1000 ;;
+  completeness) all_meshes && study completeness --poses 1000 ;;
   hostile) study hostile --poses "$((POSES / 2))" --frames "$((POSES / 2))" ;;
   parts) generated_parts parts ;;
   solids | shapes) generated_parts "$1" ;;
@@ -67,7 +63,7 @@ part() {
     [[ -n $before ]] || { say "there is no release before this one" && return 0; }
     scripts/ci_regression.sh "$before"
     ;;
-  reference) build_meshes && scripts/reference.sh && python3 scripts/reference_ages.py ;;
+  reference) all_meshes && scripts/reference.sh && python3 scripts/reference_ages.py ;;
   esac
 }
 

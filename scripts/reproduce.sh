@@ -36,9 +36,7 @@ print("\n".join(sorted(names)))
 PYTHON_END
 )" || return
   mapfile -t meshes <<<"$names"
-  # Meshes come from Debian packages; images often lack the package lists.
-  "$LMDBENCH" mesh build "${meshes[@]}" </dev/null >&2 ||
-    { apt_as_root update && "$LMDBENCH" mesh build "${meshes[@]}" </dev/null >&2; }
+  build_meshes "$LMDBENCH" "${meshes[@]}"
 }
 
 # Only the program: tests and benchmarks belong to scripts/test.sh.

@@ -234,7 +234,7 @@ def draw(all_rows, out):
             drawn = {"color": colour, "marker": mark, "markersize": 5.0, "markeredgewidth": 0.8, "label": label,
                      "markerfacecolor": "white" if row["promise"] == "force-only" or label in ("barrier-each", "points-coarse") else colour}
             above.plot([row["ms"]], [max(row["shared"], floor)], linestyle="none", **drawn)
-            below.plot(SUBDIVISIONS, np.maximum(np.asarray(row["steps"]), LEAST_STEP), linewidth=0.9, **{**drawn, "markersize": 3.5})
+            below.plot(SUBDIVISIONS, np.maximum(row["steps"], LEAST_STEP), linewidth=0.9, **{**drawn, "markersize": 3.5})
         above.set(xscale="log", yscale="log", title=name)
         above.axhspan(floor / 1.6, floor * 1.6, color="#EEEEEE", zorder=0)
         above.set_ylim(floor / 1.6, 2.0 * max(errors))

@@ -141,12 +141,11 @@ FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& meth
   return run_lockstep({method}, held, driver, {}).front().frames.back();
 }
 
-/// K_eff of the set; of a force of the method's own, which knows none, its central difference along
-/// it, 0 without force.
-double contact_stiffness(const FrameRecord& here, const Pose& X_WM,
-                         const std::function<FrameRecord(const Pose&)>& held, double cutoff) {
-  if (!std::isnan(here.effective_stiffness)) return here.effective_stiffness;
-  const Vec3 along_W = here.force.normalized();
+/// Stiffness of a force of the method's own, which knows none: its central difference along itself;
+/// 0 without force.
+double slope_along(const Vec3& force_W, const Pose& X_WM, const std::function<FrameRecord(const Pose&)>& held,
+                   double cutoff) {
+  const Vec3 along_W = force_W.normalized();
   const double step = SLOPE_STEP * cutoff;
   const auto force_at = [&](double way) {
     Pose moved = X_WM;
@@ -252,7 +251,9 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   }
   const FrameRecord at_rest = at(held.poses.front());
   const bool own_force = std::isnan(at_rest.effective_stiffness);
-  trial.stiffness_n_per_m = contact_stiffness(at_rest, held.poses.front(), at, method.profile.cutoff);
+  trial.stiffness_n_per_m = own_force
+                                ? slope_along(at_rest.force, held.poses.front(), at, method.profile.cutoff)
+                                : at_rest.effective_stiffness;
   trial.force_at_rest_W = at_rest.force;
   Rest rest;
   rest.pose = held.poses.front();

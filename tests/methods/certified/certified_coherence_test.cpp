@@ -266,7 +266,7 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
   std::mt19937_64 random(8);
   WideScratch scratch;
   std::size_t stood = 0, far = 0, ended = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 50; ++i) {
     const Pose pose = grazing_pose(scene, 0.05, random);
     const RigidTransform before(pose);
     // A large cutoff gives many pairs of every kind.
@@ -316,7 +316,7 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
       }
     }
   }
-  EXPECT_GT(stood, 9000u);
+  EXPECT_GT(stood, 10000u);
   EXPECT_GT(far, 1000u);
   EXPECT_GT(ended, 20u);
 }

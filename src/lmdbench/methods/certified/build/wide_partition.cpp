@@ -21,7 +21,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Bins of a selection; the library selects from smaller sets.
+/// Bins of a selection from a set that tries no turns.
 constexpr std::size_t BINS = 256;
 
 /// Sets up to this size try all turns: most node tests are of those. Larger ones take the first
@@ -70,6 +70,9 @@ struct Key {
   std::uint32_t item;
   std::uint32_t place;  ///< Index in its set.
 
+  Key() = default;
+  Key(const Place& of, const Vec3f& along, std::uint32_t index = 0)
+      : at(along.dot(of.centre)), item(of.item), place(index) {}
   bool operator<(const Key& other) const { return at != other.at ? at < other.at : item < other.item; }
 };
 
@@ -162,8 +165,7 @@ class Partition {
     std::optional<float> least;
     for (const auto& [cosine, sine] : TURNS) {
       const Vec3f along = cosine * spread.widest + sine * spread.second;
-      for (std::uint32_t i = 0; i < own.size(); ++i)
-        own[i] = {along.dot(places[i].centre), places[i].item, i};
+      for (std::uint32_t i = 0; i < own.size(); ++i) own[i] = Key(places[i], along, i);
       std::nth_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count), own.end());
       const float cost = cost_of(places, own.first(count)) + cost_of(places, own.subspan(count));
       if (least && !(cost < *least)) continue;
@@ -205,10 +207,7 @@ class Partition {
 
   static void select_along(Places places, std::size_t count, const Vec3f& along) {
     std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
-                     [&along](const Place& a, const Place& b) {
-                       const float at_a = along.dot(a.centre), at_b = along.dot(b.centre);
-                       return at_a != at_b ? at_a < at_b : a.item < b.item;
-                     });
+                     [&along](const Place& a, const Place& b) { return Key(a, along) < Key(b, along); });
   }
 
   Places spare_of(Places places) {
