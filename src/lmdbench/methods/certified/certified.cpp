@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -28,6 +29,10 @@ constexpr double FILTER_MARGIN = 1e-5;
 constexpr double RELATIVE_TINY = 1e-8;
 /// A motion of more cutoffs in a frame is a jump: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
+
+/// What is kept is made over several frames, which are searched from scratch meanwhile: so many
+/// tests a frame, or this share of the search's, if that is more. A kept test costs two to three.
+constexpr std::size_t FEW_TESTS = 64, SHARE_OF_SEARCH = 8;
 
 /// Vertices are fetched so many pairs ahead, indices, which are needed for that, twice as many.
 constexpr std::size_t FETCH_DISTANCE = 4;
@@ -197,22 +202,33 @@ void Certified::enumerate_from_scratch(Frame& frame) {
   touching_.decide(frame.touching, scratch.touch_pairs);
 }
 
-void Certified::enumerate_coherently(Frame& frame) {
+/// Readies what is kept for a frame.
+void Certified::keep_on(double search_distance) {
   TraversalFront& front = fixed_.front;
-  if (frame.search_distance != fixed_.search_distance) front.clear();
-  front.follow(frame.moving, fixed_.seen_moving, frame.fixed, fixed_.seen_fixed, motion_);
-  fixed_.search_distance = frame.search_distance;
-  fixed_.seen_moving = frame.moving.changes.now;
-  fixed_.seen_fixed = frame.fixed.changes.now;
-  if (front.empty()) {
-    front.start(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS,
-                frame.search_distance, frame.work);
-  } else {
-    front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS,
-                  frame.search_distance, frame.work);
-    fixed_.policy.note(frame.work.node_tests, front.test_count());
-  }
+  if (search_distance != fixed_.search_distance) front.clear();
+  front.follow(hierarchy_moving_, fixed_.seen_moving, fixed_.hierarchy, fixed_.seen_fixed, motion_);
+  fixed_.search_distance = search_distance;
+  fixed_.seen_moving = hierarchy_moving_.changes.now;
+  fixed_.seen_fixed = fixed_.hierarchy.changes.now;
+  if (front.empty()) front.start(hierarchy_moving_, fixed_.hierarchy);
+}
+
+/// Repeats tests that are due, and makes some of those that were never made.
+/// @param most  of the latter
+void Certified::advance_front(Frame& frame, std::size_t most) {
+  TraversalFront& front = fixed_.front;
+  const bool is_complete = front.is_complete();
+  const std::uint64_t before = frame.work.node_tests;
+  front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS,
+                frame.search_distance, most, frame.work);
+  const std::uint64_t made = frame.work.node_tests - before;
+  fixed_.policy.note(is_complete ? made : made - std::min<std::uint64_t>(made, most), front.test_count());
   front.collect_due(motion_);
+}
+
+void Certified::enumerate_coherently(Frame& frame) {
+  advance_front(frame, std::numeric_limits<std::size_t>::max());
+  TraversalFront& front = fixed_.front;
   front.for_each_due(
       frame.moving, motion_, frame.search_distance,
       [&](const WidePair& pair, bool, double lever_arm) { return frame.decide_pair(pair, lever_arm); },
@@ -265,21 +281,29 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   std::optional<SignedPair> signs;
   if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *fixed_.signs);
   const bool keeps = keep && query.possible && fixed_.policy.keep();
+  if (keeps)
+    keep_on(search_distance);
+  else
+    fixed_.front.clear();
+  const bool from_kept = keeps && fixed_.front.is_complete();
   Frame frame{hierarchy_moving_,
               fixed_.hierarchy,
               pair,
               filter,
               query,
               search_distance,
-              {pair, 0, touch, keeps, contacts_, intersections_, crossing_pairs_},
+              {pair, 0, touch, from_kept, contacts_, intersections_, crossing_pairs_},
               contacts_,
               counters,
               signs ? &*signs : nullptr};
-  if (keeps) {
+  if (from_kept) {
     enumerate_coherently(frame);
   } else {
-    fixed_.front.clear();
     enumerate_from_scratch(frame);
+    if (keeps) {
+      advance_front(frame, std::max<std::size_t>(FEW_TESTS, frame.work.node_tests / SHARE_OF_SEARCH));
+      fixed_.front.postpone_due(motion_);
+    }
   }
   add_traversal<Counter>(counters, frame.work);
   counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;

@@ -104,6 +104,8 @@ class Certified : public Method {
   void follow_deformations();
   void enumerate_from_scratch(Frame& frame);
   void enumerate_coherently(Frame& frame);
+  void keep_on(double search_distance);
+  void advance_front(Frame& frame, std::size_t most);
 
   Scene scene_;
   const WideHierarchy& hierarchy_moving_;

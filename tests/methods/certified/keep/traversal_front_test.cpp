@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <set>
 #include <tuple>
@@ -38,11 +39,11 @@ class TraversalFrontTest : public ::testing::Test {
     ASSERT_TRUE(query.possible);
     if (front_.empty()) {
       motion_.reset(X_WH, moving().radius, CUTOFF);
-      front_.start(moving(), fixed(), query, motion_, transform_, CUTOFF, counters_);
+      front_.start(moving(), fixed());
     } else {
       motion_.advance(X_WH, ROUNDING);
-      front_.advance(moving(), fixed(), query, motion_, transform_, CUTOFF, counters_);
     }
+    front_.advance(moving(), fixed(), query, motion_, transform_, CUTOFF, most_, counters_);
   }
   /// The pairs that are due; each gets this certificate.
   std::set<Key> due(const Certificate& certificate) {
@@ -73,6 +74,7 @@ class TraversalFrontTest : public ::testing::Test {
   MotionForecast motion_;
   TraversalFront front_;
   RigidTransform transform_;
+  std::size_t most_ = std::numeric_limits<std::size_t>::max();  ///< New tests a frame.
   WideCounters counters_;
 };
 
@@ -102,6 +104,34 @@ TEST_F(TraversalFrontTest, HoldsEveryPairOfASearchFromScratchAlongAnyMotion) {
     }
   }
   EXPECT_GT(pairs, 10000u) << "or there was little to miss";
+}
+
+TEST_F(TraversalFrontTest, MadeOverSeveralFramesItHoldsEveryPairAsSoonAsItIsComplete) {
+  std::mt19937_64 random(22);
+  for (int path = 0; path < 6; ++path) {
+    most_ = path % 2 == 0 ? 1 : 16;
+    front_.clear();
+    Pose pose = testing::grazing_pose(scene_, 0.02, random);
+    const Vec3 velocity = 2e-4 * testing::random_direction(random);
+    int frames = 0;
+    std::uint64_t largest = 0;
+    for (; frames < 1000 && !front_.is_complete(); ++frames) {
+      pose.translation += velocity;
+      const std::uint64_t before = counters_.node_tests;
+      go_to(pose);
+      if (frames < 10) largest = std::max(largest, counters_.node_tests - before);
+      front_.collect_due(motion_);
+      front_.postpone_due(motion_);
+    }
+    EXPECT_GT(frames, 10);
+    ASSERT_LT(frames, 1000);
+    EXPECT_LE(largest, most_ + 10) << "what was made stands for some frames";
+    go_to(pose);
+    const std::set<Key> held = due({}), wanted = from_scratch();
+    EXPECT_GT(wanted.size(), 0u);
+    EXPECT_EQ(held.size(), front_.pair_count()) << "each is still to be decided";
+    EXPECT_TRUE(std::includes(held.begin(), held.end(), wanted.begin(), wanted.end())) << "path " << path;
+  }
 }
 
 TEST_F(TraversalFrontTest, RestRepeatsFewTests) {

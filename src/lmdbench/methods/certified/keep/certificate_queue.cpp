@@ -33,7 +33,8 @@ std::uint32_t CertificateQueue::class_of(double deviation, const MotionForecast&
 
 void CertificateQueue::clear() {
   frames_.clear();
-  budgets_.clear();
+  epochs_.clear();
+  classes_.clear();
   free_.clear();
   least_class_.fill(CLASSES);
 }
@@ -41,7 +42,8 @@ void CertificateQueue::clear() {
 std::uint32_t CertificateQueue::add() {
   if (free_.empty()) {
     frames_.push_back(NO_FRAME);
-    budgets_.push_back(NO_BUDGET);
+    epochs_.push_back(NO_EPOCH);
+    classes_.push_back(0);
     return static_cast<std::uint32_t>(frames_.size() - 1);
   }
   const std::uint32_t index = free_.back();
@@ -52,7 +54,7 @@ std::uint32_t CertificateQueue::add() {
 void CertificateQueue::drop(std::uint32_t index) {
   LMDBENCH_EXPECTS(index < frames_.size() && count() > 0, "a thing dropped twice");
   frames_[index] = NO_FRAME;
-  budgets_[index] = NO_BUDGET;
+  epochs_[index] = NO_EPOCH;
   free_.push_back(index);
 }
 
@@ -67,7 +69,8 @@ void CertificateQueue::plan(std::uint32_t index, double frames, double deviation
   const std::size_t epoch = forecast.epoch();
   const std::uint32_t budget_class =
       class_of((deviation_budget - forecast.used_at_start()) * (1.0 - FRAME_ROUNDING), forecast);
-  budgets_[index] = static_cast<std::uint16_t>(epoch * CLASSES + budget_class);
+  epochs_[index] = static_cast<std::uint8_t>(epoch);
+  classes_[index] = static_cast<std::uint8_t>(budget_class);
   least_class_[epoch] = std::min(least_class_[epoch], budget_class);
 }
 
@@ -81,7 +84,8 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
   others_.reserve(frames_.capacity());
   // Plain loops over local pointers, which the compiler vectorises.
   std::uint8_t* const frames = frames_.data();
-  std::uint16_t* const budgets = budgets_.data();
+  std::uint8_t* const epochs = epochs_.data();
+  const std::uint8_t* const classes = classes_.data();
   std::uint8_t* const is_due = is_due_.data();
   const auto now = static_cast<std::uint8_t>(forecast.frame() % FRAMES);
   for (std::size_t i = 0; i < count; ++i) is_due[i] = frames[i] == now;
@@ -90,10 +94,9 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
     const std::uint32_t reached = class_of(forecast.deviation(epoch), forecast);
     if (least_class_[epoch] > reached) continue;
     least_class_[epoch] = reached + 1;
-    const auto first = static_cast<std::uint16_t>(epoch * CLASSES);
-    const auto width = static_cast<std::uint16_t>(reached);
+    const auto of_epoch = static_cast<std::uint8_t>(epoch), up_to = static_cast<std::uint8_t>(reached);
     for (std::size_t i = 0; i < count; ++i)
-      is_due[i] |= static_cast<std::uint16_t>(budgets[i] - first) <= width;
+      is_due[i] |= static_cast<std::uint8_t>((epochs[i] == of_epoch) & (classes[i] <= up_to));
   }
   // First the pairs without a budget, as crossing pairs: together they are predicted well.
   due.clear();
@@ -103,9 +106,9 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
     std::memcpy(&eight, is_due + begin, sizeof(eight));
     for (; eight != 0; eight &= eight - 1) {
       const std::size_t index = begin + static_cast<std::size_t>(std::countr_zero(eight)) / 8;
-      (budgets[index] == NO_BUDGET ? due : others_).push_back(static_cast<std::uint32_t>(index));
+      (epochs[index] == NO_EPOCH ? due : others_).push_back(static_cast<std::uint32_t>(index));
       frames[index] = NO_FRAME;
-      budgets[index] = NO_BUDGET;
+      epochs[index] = NO_EPOCH;
     }
   }
   due.insert(due.end(), others_.begin(), others_.end());

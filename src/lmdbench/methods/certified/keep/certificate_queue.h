@@ -53,12 +53,9 @@ class CertificateQueue {
     frames_[index] = static_cast<std::uint8_t>(frame % FRAMES);
   }
 
-  // By index: the frame in which its plan ends, modulo FRAMES; epoch * CLASSES + class of its
-  // budget.
-  static constexpr std::uint8_t NO_FRAME = FRAMES;
-  static constexpr std::uint16_t NO_BUDGET = MotionForecast::EPOCHS * CLASSES;
-  std::vector<std::uint8_t> frames_;
-  std::vector<std::uint16_t> budgets_;
+  // By index: the frame in which its plan ends, modulo FRAMES; epoch and class of its budget.
+  static constexpr std::uint8_t NO_FRAME = FRAMES, NO_EPOCH = MotionForecast::EPOCHS;
+  std::vector<std::uint8_t> frames_, epochs_, classes_;
   /// By epoch: lower bound of its budgets' classes.
   std::array<std::uint32_t, MotionForecast::EPOCHS> least_class_;
   std::vector<std::uint32_t> free_;

@@ -24,9 +24,10 @@ void TraversalFront::clear() {
   requested_.clear();
 }
 
-std::uint32_t TraversalFront::add_record(const Work& work, std::uint32_t slot_a, std::uint32_t slot_b) {
+std::uint32_t TraversalFront::add_record(const WideHierarchy& a, const WideHierarchy& b,
+                                         std::uint32_t slot_a, std::uint32_t slot_b) {
   const std::uint32_t index = test_queue_.add();
-  const WideKeptPair pair(work.a, work.b, slot_a, slot_b);
+  const WideKeptPair pair(a, b, slot_a, slot_b);
   if (index == records_.size()) {
     pairs_.push_back(pair);
     records_.push_back({});
@@ -158,7 +159,7 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
     if ((test.opened >> lane & 1u) == 0) {
       drop_record(before.below[lane]);
     } else {
-      const std::uint32_t added = add_record(work, slot_a_of(lane), slot_b_of(lane));
+      const std::uint32_t added = add_record(work.a, work.b, slot_a_of(lane), slot_b_of(lane));
       records_[index].below[lane] = added;
     }
   }
@@ -183,16 +184,21 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
   records_[index].touch_lanes = test.touch;
 }
 
-void TraversalFront::make_requested_tests(const Work& work) {
-  while (!requested_.empty()) {
+void TraversalFront::make_requested_tests(const Work& work, std::size_t most) {
+  while (!requested_.empty() && most > 0) {
     // An index that was dropped and reused while it waited is in the list twice.
-    std::erase_if(requested_, [&](std::uint32_t index) {
-      return !records_[index].in_use || !std::exchange(records_[index].is_requested, false);
-    });
+    batch_.clear();
+    std::size_t taken = 0;
+    while (taken < requested_.size() && batch_.size() < most) {
+      const std::uint32_t index = requested_[taken++];
+      if (records_[index].in_use && std::exchange(records_[index].is_requested, false))
+        batch_.push_back(index);
+    }
+    requested_.erase(requested_.begin(), requested_.begin() + static_cast<std::ptrdiff_t>(taken));
+    most -= batch_.size();
     // No batch is larger, so none allocates later.
     tests_.reserve(std::bit_ceil(records_.size()));
-    test_batch(work.a, work.b, work.query, work.forecast, pairs_, requested_, tests_);
-    requested_.clear();
+    test_batch(work.a, work.b, work.query, work.forecast, pairs_, batch_, tests_);
     for (const WideKeptTest& test : tests_) {
       // Not where an earlier test of the batch dropped the pair, or gave its index to a new one.
       const Record& record = records_[test.pair];
@@ -201,21 +207,21 @@ void TraversalFront::make_requested_tests(const Work& work) {
   }
 }
 
-void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                           const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-                           WideCounters& counters) {
+void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b) {
   clear();
-  const Work work{a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters};
-  add_record(work, 0, 0);
-  make_requested_tests(work);
+  add_record(a, b, 0, 0);
 }
 
 void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                              const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-                             WideCounters& counters) {
-  test_queue_.collect(motion, requested_);
-  for (const std::uint32_t index : requested_) records_[index].is_requested = true;
-  make_requested_tests({a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters});
+                             std::size_t most, WideCounters& counters) {
+  test_queue_.collect(motion, batch_);
+  for (const std::uint32_t index : batch_) records_[index].is_requested = true;
+  // What is due comes first.
+  requested_.insert(requested_.begin(), batch_.begin(), batch_.end());
+  const std::size_t due = batch_.size(), all = std::numeric_limits<std::size_t>::max();
+  make_requested_tests({a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters},
+                       most < all - due ? due + most : all);
 }
 
 }  // namespace lmdbench

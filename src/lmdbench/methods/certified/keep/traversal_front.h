@@ -20,33 +20,40 @@ namespace lmdbench {
 
 /// A traversal that is kept from frame to frame: its tests and the feature pairs ("leaves") that
 /// they let through, each valid for a plan (certificate_queue.h).
-/// 1. `start` descends from the roots as find_wide_pairs does, with lifetimes (wide_lifetime.h).
-/// 2. `advance` repeats tests that are due. A lane that survives now is opened or becomes a leaf;
-///    one that no longer does is dropped with all below it.
-/// 3. Leaves that are due are decided anew; a decision has a certificate (PROOF.md, lemma 18).
-/// None is missed, as in find_wide_pairs: a valid test rejects every lane that is not opened.
+/// 1. `start` asks for the test of the roots.
+/// 2. `advance` makes the tests that are due, with lifetimes (wide_lifetime.h), and some of those
+///    that were never made. A lane that survives is opened or becomes a leaf; one that no longer
+///    does is dropped with all below it.
+/// 3. Once no test is left to be made the front is complete. Leaves that are due are decided; a
+///    decision has a certificate (PROOF.md, lemma 18).
+/// A complete front misses none, as in find_wide_pairs: a valid test rejects every lane that is not
+/// opened.
 class TraversalFront {
  public:
   void clear();
   bool empty() const { return test_queue_.size() == 0; }
+  bool is_complete() const { return !empty() && requested_.empty(); }
 
-  /// Finds the pairs anew.
-  void start(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-             const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-             WideCounters& counters);
+  /// Begins anew.
+  void start(const WideHierarchy& a, const WideHierarchy& b);
 
   /// Repeats what was kept of children that have changed (WideChanges). Comes before `advance`.
   /// @param seen_a, seen_b  deformations that the pairs know; neither frame has changed since
   void follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b, std::uint32_t seen_b,
               const MotionForecast& motion);
 
-  /// Brings the pairs to the forecast's frame.
+  /// Brings the pairs to the forecast's frame, once a frame.
+  /// @param most  tests that were never made, of those known before and found now, that are made
   void advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-               WideCounters& counters);
+               std::size_t most, WideCounters& counters);
 
   /// Finds the pairs that are due, once a frame.
   void collect_due(const MotionForecast& motion) { leaf_queue_.collect(motion, due_); }
+  /// In place of deciding them.
+  void postpone_due(const MotionForecast& motion) {
+    for (const std::uint32_t i : due_) leaf_queue_.plan_next(i, motion);
+  }
   /// Calls decide(pair, touches, lever_arm), which returns its Certificate, for every pair that is
   /// due and chosen(pair, touches), in one call a frame. `touches`: faces that may touch.
   template <class Decide, class Chosen>
@@ -82,7 +89,7 @@ class TraversalFront {
   /// What the test of a pair let through.
   struct Record {
     bool in_use = false;
-    bool is_requested = false;       ///< Its test is to be made in this frame.
+    bool is_requested = false;       ///< Its test is to be made.
     std::uint32_t opened_lanes = 0;  ///< Lanes that have a record in `below`.
     std::uint32_t lmd_lanes = 0;     ///< Lanes that have a leaf in `below`.
     std::uint32_t touch_lanes = 0;   ///< Lanes that have a leaf in `touching`.
@@ -103,14 +110,16 @@ class TraversalFront {
     WideCounters& counters;
   };
 
-  std::uint32_t add_record(const Work& work, std::uint32_t slot_a, std::uint32_t slot_b);
+  std::uint32_t add_record(const WideHierarchy& a, const WideHierarchy& b, std::uint32_t slot_a,
+                           std::uint32_t slot_b);
   std::uint32_t add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair, bool touches);
   void drop_record(std::uint32_t record);
   /// Drops the pairs that a test let through, and puts its records on `dropping_`.
   void drop_below(const Record& record);
   /// Drops the records on `dropping_` and all below them.
   void finish_dropping();
-  void make_requested_tests(const Work& work);
+  /// @param most  of the requested ones, and of those that are requested on the way
+  void make_requested_tests(const Work& work, std::size_t most);
   void apply(const Work& work, const WideKeptTest& test);
 
   // By the indices of the queues; later entries are unused.
@@ -119,7 +128,8 @@ class TraversalFront {
   CertificateQueue test_queue_;
   SteadyArray<Leaf> leaves_;
   CertificateQueue leaf_queue_;
-  std::vector<std::uint32_t> requested_, dropping_, due_;
+  std::vector<std::uint32_t> requested_;              ///< Between frames those that were never made.
+  std::vector<std::uint32_t> batch_, dropping_, due_;  ///< Scratch.
   std::vector<WideKeptTest> tests_;
 };
 

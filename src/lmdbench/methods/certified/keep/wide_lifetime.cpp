@@ -69,8 +69,8 @@ struct Lasting {
   }
   HWY_INLINE void above(Number z, Number slab, Number limit, Of of) { ask((z - slab) - limit, -rise(of)); }
   HWY_INLINE void outside(Number z, Number slab, Number limit, Of of) {
-    above(z, slab, limit, of);
-    ask(-(z + slab) - limit, rise(of));
+    // Of the two sides the one where z is.
+    ask((magnitude(z) - slab) - limit, select(z < Lanes::set(0.0F), rise(of), -rise(of)));
   }
   HWY_INLINE void behind(Number z, Number slab, Of of) { ask(-(z + slab), rise(of)); }
   HWY_INLINE void beside(const typename NodeCriteria<Lanes>::Beside& x, Of of) {
@@ -102,6 +102,14 @@ struct Lasting {
   }
 };
 
+/// Where touching does not matter.
+struct NotAsked {
+  explicit HWY_INLINE NotAsked(const auto&) {}
+  static HWY_INLINE void apart(const auto&...) {}
+  static HWY_INLINE void outside(const auto&...) {}
+  static HWY_INLINE void across(const auto&...) {}
+};
+
 /// Keeps the only value that it is handed: G2, whose slack is an angle.
 template <class Number>
 struct Turned {
@@ -110,8 +118,9 @@ struct Turned {
 };
 
 /// The test of wide_lifetime.h.
+/// @tparam Touches  whether touching matters for some lane
 /// @param widths  WideWidthTest or NoWidths
-template <class Lanes, class Widths>
+template <class Lanes, bool Touches, class Widths>
 HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
                                        const WideForecast& forecast, const WideLifetimeTest& test,
                                        const Widths& widths) {
@@ -157,7 +166,8 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
                              zero,
                              set(forecast.spin) * lever_arm + set(forecast.creep)};
     const NodeCriteria<Lanes> criteria(bounds, limits);
-    Lasting<Lanes> lmd_lasts{motion}, touch_lasts{motion};
+    Lasting<Lanes> lmd_lasts{motion};
+    std::conditional_t<Touches, Lasting<Lanes>, NotAsked> touch_lasts{motion};
     Turned<Number> normals;
     criteria.directed(lmd_lasts);
     criteria.near(lmd_lasts);
@@ -169,43 +179,39 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
       motion.widen_lane = Bounds::dot(ex, ey, ez, across.bx, across.by, across.bz);
       criteria.apart_across(across, lmd_lasts, touch_lasts);
     }
-    const Criterion<Number>&length = lmd_lasts.best, &touching = touch_lasts.best;
+    const Criterion<Number>& length = lmd_lasts.best;
     const Number angle_slack =
         (normals.cosines / select(bounds.between <= zero, bounds.across, set(1.0F))) * extent;
 
-    // Frames after which the loss leaves only DEVIATION_SHARE, base and drift.
-    const auto frames = [&](Number slack, Number loss)
-                            HWY_ATTR { return (slack * rest - base) / (loss + drift); };
-    const auto planned = [&](Number slack, Number loss, Number wanted) HWY_ATTR {
-      return least_of(largest_of(wanted, slack * least_share / loss), longest_plan);
-    };
-    const Number length_frames = frames(length.slack, length.loss);
-    const Number angle_frames = frames(angle_slack, angle_loss);
-    const Number touch_frames = frames(touching.slack, touching.loss);
-    const auto by_length = length_frames >= angle_frames;
-    const Number lmd_slack = select(by_length, length.slack, angle_slack);
-    const Number lmd_loss = select(by_length, length.loss, angle_loss);
-    const Number lmd_plan = planned(lmd_slack, lmd_loss, largest_of(length_frames, angle_frames));
-    const Number touch_plan = planned(touching.slack, touching.loss, touch_frames);
-
     const auto used = Lanes::not_zero(node.child, first);
-    const auto touch_matters = both_of(used, Lanes::of_bits(test.touch_lanes, first));
     const auto soon = [&](Number slack, Number loss) HWY_ATTR { return slack <= loss * horizon; };
+    // Share of a deviation's cost, less where the lane extends beyond the forecast's extent (lemma
+    // 17).
+    const Number share = least_of(extent / (from_origin + lever_arm), set(1.0F));
+    // Plans leave DEVIATION_SHARE, base and drift of a slack, but use LEAST_SHARE of it.
+    const auto spare = [&](Number slack) HWY_ATTR { return slack * rest - base; };
+    const auto plan = [&](auto lanes, Number slack, Number loss) HWY_ATTR {
+      const Number wanted = spare(slack) / (loss + drift);
+      const Number planned = least_of(largest_of(wanted, slack * least_share / loss), longest_plan);
+      least_frames = least_of(least_frames, select(lanes, planned, infinite));
+      least_budget =
+          least_of(least_budget, select(lanes, (slack - loss * planned) * share, infinite));
+    };
+
+    const auto by_length =
+        spare(length.slack) * (angle_loss + drift) >= spare(angle_slack) * (length.loss + drift);
     const auto lmd = both_of(used, both_of(soon(length.slack, length.loss), soon(angle_slack, angle_loss)));
-    const auto touch = both_of(touch_matters, soon(touching.slack, touching.loss));
+    plan(but_not(used, lmd), select(by_length, length.slack, angle_slack),
+         select(by_length, length.loss, angle_loss));
     result.used |= Lanes::bits(used, first);
     result.lmd |= Lanes::bits(lmd, first);
-    result.touch |= Lanes::bits(touch, first);
-    const auto dead = but_not(used, lmd), touch_dead = but_not(touch_matters, touch);
-    // Cost of a deviation, more where the lane extends beyond the forecast's extent (lemma 17).
-    const Number weight = largest_of((from_origin + lever_arm) / extent, set(1.0F));
-    const auto left = [&](Number slack, Number loss, Number for_frames)
-                          HWY_ATTR { return (slack - loss * for_frames) / weight; };
-    least_frames = least_of(least_frames, select(dead, lmd_plan, infinite));
-    least_frames = least_of(least_frames, select(touch_dead, touch_plan, infinite));
-    least_budget = least_of(least_budget, select(dead, left(lmd_slack, lmd_loss, lmd_plan), infinite));
-    least_budget =
-        least_of(least_budget, select(touch_dead, left(touching.slack, touching.loss, touch_plan), infinite));
+    if constexpr (Touches) {
+      const Criterion<Number>& touching = touch_lasts.best;
+      const auto matters = both_of(used, Lanes::of_bits(test.touch_lanes, first));
+      const auto touch = both_of(matters, soon(touching.slack, touching.loss));
+      plan(but_not(matters, touch), touching.slack, touching.loss);
+      result.touch |= Lanes::bits(touch, first);
+    }
   }
   result.frames = Lanes::least(least_frames);
   result.deviation_budget = Lanes::least(least_budget);
@@ -219,8 +225,8 @@ template <class Lanes>
 WideLifetimes lifetime_of(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
                           const WideForecast& forecast, const WideLifetimeTest& test,
                           const WideWidthTest* widths) {
-  return widths == nullptr ? test_lifetime<Lanes>(node, probe, limits, forecast, test, NoWidths())
-                           : test_lifetime<Lanes>(node, probe, limits, forecast, test, *widths);
+  return widths == nullptr ? test_lifetime<Lanes, true>(node, probe, limits, forecast, test, NoWidths())
+                           : test_lifetime<Lanes, true>(node, probe, limits, forecast, test, *widths);
 }
 
 void lifetime_on_target(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
@@ -261,15 +267,17 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
                                           : X.columns[0][k] * centre[0] + X.columns[1][k] * centre[1] +
                                                 X.columns[2][k] * centre[2] + X.translation[k];
     }
+    const auto test_by = [&](const auto& widths) HWY_ATTR {
+      return lifetime.touch_lanes != 0
+                 ? test_lifetime<VectorLanes, true>(node, probe, query.limits, forecast, lifetime, widths)
+                 : test_lifetime<VectorLanes, false>(node, probe, query.limits, forecast, lifetime, widths);
+    };
     WideLifetimes result;
-    if constexpr (std::is_same_v<Widths, WideWidthTest>) {
-      const std::uint32_t slot = open_a ? pair.slot_b : pair.slot_a;
-      result = test_lifetime<VectorLanes>(
-          node, probe, query.limits, forecast, lifetime,
-          make_width_test(open_a ? a : b, pair.node, open_a ? b : a, slot, child_in_open));
-    } else {
-      result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime, NoWidths());
-    }
+    if constexpr (std::is_same_v<Widths, WideWidthTest>)
+      result = test_by(make_width_test(open_a ? a : b, pair.node, open_a ? b : a,
+                                       open_a ? pair.slot_b : pair.slot_a, child_in_open));
+    else
+      result = test_by(NoWidths());
     const std::uint32_t final_lanes = pair.child.ref.is_feature() ? kinds.features : 0u;
     tests[i] = {due[i],
                 result.used,

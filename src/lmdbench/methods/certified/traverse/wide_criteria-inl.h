@@ -209,8 +209,8 @@ struct NodeCriteria {
     lmd.behind(bounds.z_lane, bounds.slab_lane, Of::LANE);
   }
   /// Where features are long: apart square to them.
-  template <class Visitor>
-  HWY_INLINE void apart_across(const LaneWidths<Lanes>& widths, Visitor& lmd, Visitor& touch) const {
+  template <class Visitor, class OfTouch>
+  HWY_INLINE void apart_across(const LaneWidths<Lanes>& widths, Visitor& lmd, OfTouch& touch) const {
     lmd.across(widths.gap_probe, bounds.probe_sine * reach, widths.along_probe, Of::PROBE);
     lmd.across(widths.gap_lane, bounds.sine * reach, widths.along_lane, Of::LANE);
     touch.across(widths.gap_probe, touch_limit, widths.along_probe, Of::PROBE);
