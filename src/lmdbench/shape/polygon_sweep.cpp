@@ -65,12 +65,11 @@ class Sweep {
   Sweep(std::array<std::span<const PolygonSide>, 2> polygons, double tolerance)
       : owners_(polygons[1].empty() ? 1 : 2), tolerance_(tolerance) {
     LMDBENCH_EXPECTS(tolerance >= 0.0, "a tolerance that is negative or not a number");
-    heights_.reserve(2 * (polygons[0].size() + polygons[1].size()));
+    heights_.reserve(polygons[0].size() + polygons[1].size());
     climbs_.reserve(polygons[0].size() + polygons[1].size());
     for (std::size_t owner = 0; owner < owners_; ++owner)
       for (const PolygonSide& side : polygons[owner]) {
         heights_.push_back(side.from[1]);
-        heights_.push_back(side.to[1]);
         if (std::abs(side.from[1] - side.to[1]) > tolerance) climbs_.emplace_back(side, owner);
       }
     std::stable_sort(climbs_.begin(), climbs_.end(),

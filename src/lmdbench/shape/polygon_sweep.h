@@ -9,7 +9,7 @@
 
 namespace lmdbench {
 
-/// A directed side of a polygon, the inside to its left.
+/// A directed side of a polygon, the inside to its left. Each of the polygon's corners begins one.
 struct PolygonSide {
   Vec2 from, to;
 };

@@ -9,6 +9,8 @@
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/decide/filter.h>
 
+#include <boost/lockfree/stack.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,9 +32,10 @@ constexpr double RELATIVE_TINY = 1e-8;
 /// A motion of more cutoffs in a frame is a jump: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
 
-/// What is kept is made over several frames, which are searched from scratch meanwhile: so many
-/// tests a frame, or this share of the search's, if that is more. A kept test costs two to three.
-constexpr std::size_t FEW_TESTS = 64, SHARE_OF_SEARCH = 8;
+/// What is kept is made over several frames, which are searched from scratch meanwhile, and so is
+/// what a jolt makes due: so many tests a frame, or this part of the last search's or of those kept
+/// so far, if that is more. A kept test costs two to three.
+constexpr std::size_t FEW_TESTS = 64, SHARE_OF_TESTS = 8;
 
 /// Vertices are fetched so many pairs ahead, indices, which are needed for that, twice as many.
 constexpr std::size_t FETCH_DISTANCE = 4;
@@ -80,6 +83,30 @@ void fetch_vertices(const Surface& surface, const FeatureId& feature) {
       break;
   }
 }
+
+/// Memory of a search from scratch, handed on from search to search: a servo thread finds it grown,
+/// and a pile of a thousand pairs needs no more of it than there are threads.
+class BorrowedScratch {
+ public:
+  BorrowedScratch() {
+    if (!spare().pop(scratch_)) scratch_ = new WideScratch;
+  }
+  ~BorrowedScratch() {
+    if (!spare().bounded_push(scratch_)) delete scratch_;
+  }
+  BorrowedScratch(const BorrowedScratch&) = delete;
+  BorrowedScratch& operator=(const BorrowedScratch&) = delete;
+  WideScratch& operator*() const { return *scratch_; }
+
+ private:
+  using Spare = boost::lockfree::stack<WideScratch*, boost::lockfree::capacity<64>>;
+  static Spare& spare() {
+    static Spare instance;
+    return instance;
+  }
+
+  WideScratch* scratch_ = nullptr;
+};
 
 /// For the contract of the filter.
 bool has_contact(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed) {
@@ -186,9 +213,12 @@ void Certified::follow_deformations() {
 }
 
 void Certified::enumerate_from_scratch(Frame& frame) {
-  // One a thread: it searches the thousand pairs of a pile one after another.
-  thread_local WideScratch scratch;
-  find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch, frame.work);
+  const BorrowedScratch borrowed;
+  WideScratch& scratch = *borrowed;
+  WideCounters work;
+  find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch, work);
+  add_traversal<Counter>(frame.counters, work);
+  fixed_.tests_from_scratch = work.node_tests;
   const auto fetch = [&](std::size_t k, const auto& fetch_part) {
     if (k >= scratch.lmd_pairs.size()) return;
     fetch_part(frame.pair.moving.surface, scratch.lmd_pairs[k].a.feature_id());
@@ -202,33 +232,33 @@ void Certified::enumerate_from_scratch(Frame& frame) {
   touching_.decide(frame.touching, scratch.touch_pairs);
 }
 
-/// Readies what is kept for a frame.
-void Certified::keep_on(double search_distance) {
+/// Brings what is kept to a frame.
+/// @return whether it is complete, so that nothing need be searched from scratch
+bool Certified::advance_kept(Frame& frame) {
   TraversalFront& front = fixed_.front;
-  if (search_distance != fixed_.search_distance) front.clear();
-  front.follow(hierarchy_moving_, fixed_.seen_moving, fixed_.hierarchy, fixed_.seen_fixed, motion_);
-  fixed_.search_distance = search_distance;
-  fixed_.seen_moving = hierarchy_moving_.changes.now;
-  fixed_.seen_fixed = fixed_.hierarchy.changes.now;
-  if (front.empty()) front.start(hierarchy_moving_, fixed_.hierarchy);
-}
-
-/// Repeats tests that are due, and makes some of those that were never made.
-/// @param most  of the latter
-void Certified::advance_front(Frame& frame, std::size_t most) {
-  TraversalFront& front = fixed_.front;
-  const bool is_complete = front.is_complete();
-  const std::uint64_t before = frame.work.node_tests;
+  if (frame.search_distance != fixed_.search_distance) front.clear();
+  front.follow(frame.moving, fixed_.seen_moving, frame.fixed, fixed_.seen_fixed, motion_);
+  fixed_.search_distance = frame.search_distance;
+  fixed_.seen_moving = frame.moving.changes.now;
+  fixed_.seen_fixed = frame.fixed.changes.now;
+  const bool was_complete = front.is_complete();
+  if (front.empty()) front.start(frame.moving, frame.fixed);
+  const std::size_t due = front.collect_due_tests(motion_), kept = front.test_count();
+  const std::size_t few = std::max(FEW_TESTS, CoherencePolicy::most_of(kept));
+  const bool goes_on = was_complete && due <= few;
+  const std::size_t added = std::max(FEW_TESTS, std::max(fixed_.tests_from_scratch, kept) / SHARE_OF_TESTS);
   front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS,
-                frame.search_distance, most, frame.work);
-  const std::uint64_t made = frame.work.node_tests - before;
-  fixed_.policy.note(is_complete ? made : made - std::min<std::uint64_t>(made, most), front.test_count());
+                frame.search_distance, goes_on ? few : added + (due <= few ? due : 0), frame.work);
+  fixed_.policy.note(goes_on ? frame.work.node_tests : due, front.test_count());
   front.collect_due(motion_);
+  if (front.is_complete()) return true;
+  front.postpone_due(motion_);
+  return false;
 }
 
-void Certified::enumerate_coherently(Frame& frame) {
-  advance_front(frame, std::numeric_limits<std::size_t>::max());
+void Certified::decide_kept(Frame& frame) {
   TraversalFront& front = fixed_.front;
+  frame.touching.keeps = true;
   front.for_each_due(
       frame.moving, motion_, frame.search_distance,
       [&](const WidePair& pair, bool, double lever_arm) { return frame.decide_pair(pair, lever_arm); },
@@ -281,30 +311,21 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   std::optional<SignedPair> signs;
   if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *fixed_.signs);
   const bool keeps = keep && query.possible && fixed_.policy.keep();
-  if (keeps)
-    keep_on(search_distance);
-  else
-    fixed_.front.clear();
-  const bool from_kept = keeps && fixed_.front.is_complete();
+  if (!keeps) fixed_.front.clear();
   Frame frame{hierarchy_moving_,
               fixed_.hierarchy,
               pair,
               filter,
               query,
               search_distance,
-              {pair, 0, touch, from_kept, contacts_, intersections_, crossing_pairs_},
+              {pair, 0, touch, false, contacts_, intersections_, crossing_pairs_},
               contacts_,
               counters,
               signs ? &*signs : nullptr};
-  if (from_kept) {
-    enumerate_coherently(frame);
-  } else {
+  if (keeps && advance_kept(frame))
+    decide_kept(frame);
+  else
     enumerate_from_scratch(frame);
-    if (keeps) {
-      advance_front(frame, std::max<std::size_t>(FEW_TESTS, frame.work.node_tests / SHARE_OF_SEARCH));
-      fixed_.front.postpone_due(motion_);
-    }
-  }
   add_traversal<Counter>(counters, frame.work);
   counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
   counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;

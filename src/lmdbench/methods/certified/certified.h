@@ -43,9 +43,10 @@ const MethodDescription& certified_method();
 ///
 /// From frame to frame (keep/) step 1 reuses its tests, the filter's answers and gaps of triangles:
 /// each is valid for some frames if the motion goes on as forecast (wide_lifetime.h). A frame
-/// repeats what has run out, and what the motion deviates too far for (motion_forecast.h). It is
-/// searched from scratch where the pose jumps or little is kept (coherence_policy.h). Where a mesh
-/// deforms, tests of nodes that changed are repeated (TraversalFront::follow). The set is the same.
+/// repeats what has run out, and what the motion deviates too far for (motion_forecast.h). Where
+/// much must be made or repeated, a frame makes a part of it and is searched from scratch meanwhile;
+/// so is one where the pose jumps or little is kept (coherence_policy.h). Where a mesh deforms, tests
+/// of nodes that changed are repeated (TraversalFront::follow). The set is the same.
 class Certified : public Method {
  public:
   enum class Counter : std::uint8_t {
@@ -89,6 +90,7 @@ class Certified : public Method {
     CoherencePolicy policy;
     std::uint32_t seen_moving = 0, seen_fixed = 0;  ///< Deformations that the front knows.
     double search_distance = 0.0;                   ///< For which its tests were made [m].
+    std::size_t tests_from_scratch = 0;             ///< Of the last search from scratch.
   };
   struct Frame;
 
@@ -103,9 +105,8 @@ class Certified : public Method {
   bool follow_motion(const RigidTransform& X_WM, double touch, double search_distance);
   void follow_deformations();
   void enumerate_from_scratch(Frame& frame);
-  void enumerate_coherently(Frame& frame);
-  void keep_on(double search_distance);
-  void advance_front(Frame& frame, std::size_t most);
+  bool advance_kept(Frame& frame);
+  void decide_kept(Frame& frame);
 
   Scene scene_;
   const WideHierarchy& hierarchy_moving_;

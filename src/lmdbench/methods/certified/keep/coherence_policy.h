@@ -20,6 +20,10 @@ class CoherencePolicy {
     --pause_;
     return false;
   }
+  /// Repeating more of so many kept tests would cost more than a search from scratch.
+  static std::size_t most_of(std::size_t kept) {
+    return static_cast<std::size_t>(LARGEST_SHARE * static_cast<double>(kept));
+  }
   /// After a frame that was kept.
   /// @param repeated tests that were made again
   /// @param kept     tests that are kept

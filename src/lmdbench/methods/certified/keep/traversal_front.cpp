@@ -24,8 +24,8 @@ void TraversalFront::clear() {
   requested_.clear();
 }
 
-std::uint32_t TraversalFront::add_record(const WideHierarchy& a, const WideHierarchy& b,
-                                         std::uint32_t slot_a, std::uint32_t slot_b) {
+std::uint32_t TraversalFront::add_record(const WideHierarchy& a, const WideHierarchy& b, std::uint32_t slot_a,
+                                         std::uint32_t slot_b) {
   const std::uint32_t index = test_queue_.add();
   const WideKeptPair pair(a, b, slot_a, slot_b);
   if (index == records_.size()) {
@@ -184,7 +184,23 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
   records_[index].touch_lanes = test.touch;
 }
 
-void TraversalFront::make_requested_tests(const Work& work, std::size_t most) {
+void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b) {
+  clear();
+  add_record(a, b, 0, 0);
+}
+
+std::size_t TraversalFront::collect_due_tests(const MotionForecast& motion) {
+  test_queue_.collect(motion, batch_);
+  requested_.reserve(batch_.capacity());  // As of the queue: none is allocated later.
+  for (const std::uint32_t index : batch_) records_[index].is_requested = true;
+  requested_.insert(requested_.begin(), batch_.begin(), batch_.end());
+  return batch_.size();
+}
+
+void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
+                             const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
+                             std::size_t most, WideCounters& counters) {
+  const Work work{a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters};
   while (!requested_.empty() && most > 0) {
     // An index that was dropped and reused while it waited is in the list twice.
     batch_.clear();
@@ -205,23 +221,6 @@ void TraversalFront::make_requested_tests(const Work& work, std::size_t most) {
       if (record.in_use && !record.is_requested) apply(work, test);
     }
   }
-}
-
-void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b) {
-  clear();
-  add_record(a, b, 0, 0);
-}
-
-void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
-                             const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-                             std::size_t most, WideCounters& counters) {
-  test_queue_.collect(motion, batch_);
-  for (const std::uint32_t index : batch_) records_[index].is_requested = true;
-  // What is due comes first.
-  requested_.insert(requested_.begin(), batch_.begin(), batch_.end());
-  const std::size_t due = batch_.size(), all = std::numeric_limits<std::size_t>::max();
-  make_requested_tests({a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters},
-                       most < all - due ? due + most : all);
 }
 
 }  // namespace lmdbench

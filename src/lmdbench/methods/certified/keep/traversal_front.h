@@ -20,10 +20,10 @@ namespace lmdbench {
 
 /// A traversal that is kept from frame to frame: its tests and the feature pairs ("leaves") that
 /// they let through, each valid for a plan (certificate_queue.h).
-/// 1. `start` asks for the test of the roots.
-/// 2. `advance` makes the tests that are due, with lifetimes (wide_lifetime.h), and some of those
-///    that were never made. A lane that survives is opened or becomes a leaf; one that no longer
-///    does is dropped with all below it.
+/// 1. `start` asks for the test of the roots, `collect_due_tests` for those that are due.
+/// 2. `advance` makes tests, with lifetimes (wide_lifetime.h). A lane that survives is opened, so
+///    that another test is asked for, or becomes a leaf; one that no longer does is dropped with all
+///    below it.
 /// 3. Once no test is left to be made the front is complete. Leaves that are due are decided; a
 ///    decision has a certificate (PROOF.md, lemma 18).
 /// A complete front misses none, as in find_wide_pairs: a valid test rejects every lane that is not
@@ -42,8 +42,10 @@ class TraversalFront {
   void follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b, std::uint32_t seen_b,
               const MotionForecast& motion);
 
-  /// Brings the pairs to the forecast's frame, once a frame.
-  /// @param most  tests that were never made, of those known before and found now, that are made
+  /// Asks for the tests that are due, once a frame. @return how many there are
+  std::size_t collect_due_tests(const MotionForecast& motion);
+  /// Makes the tests that are asked for; those of this frame's collect_due_tests come first.
+  /// @param most  tests that are made
   void advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
                std::size_t most, WideCounters& counters);
@@ -118,8 +120,6 @@ class TraversalFront {
   void drop_below(const Record& record);
   /// Drops the records on `dropping_` and all below them.
   void finish_dropping();
-  /// @param most  of the requested ones, and of those that are requested on the way
-  void make_requested_tests(const Work& work, std::size_t most);
   void apply(const Work& work, const WideKeptTest& test);
 
   // By the indices of the queues; later entries are unused.
@@ -128,7 +128,7 @@ class TraversalFront {
   CertificateQueue test_queue_;
   SteadyArray<Leaf> leaves_;
   CertificateQueue leaf_queue_;
-  std::vector<std::uint32_t> requested_;              ///< Between frames those that were never made.
+  std::vector<std::uint32_t> requested_;               ///< Tests that are to be made.
   std::vector<std::uint32_t> batch_, dropping_, due_;  ///< Scratch.
   std::vector<WideKeptTest> tests_;
 };

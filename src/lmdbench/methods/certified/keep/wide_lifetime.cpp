@@ -121,9 +121,9 @@ struct Turned {
 /// @tparam Touches  whether touching matters for some lane
 /// @param widths  WideWidthTest or NoWidths
 template <class Lanes, bool Touches, class Widths>
-HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
-                                       const WideForecast& forecast, const WideLifetimeTest& test,
-                                       const Widths& widths) {
+HWY_INLINE WideLifetimes lifetimes_of(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                                      const WideForecast& forecast, const WideLifetimeTest& test,
+                                      const Widths& widths) {
   using Number = typename Lanes::Number;
   using Bounds = LaneBounds<Lanes>;
   const auto set = [](float x) HWY_ATTR { return Lanes::set(x); };
@@ -194,8 +194,7 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
       const Number wanted = spare(slack) / (loss + drift);
       const Number planned = least_of(largest_of(wanted, slack * least_share / loss), longest_plan);
       least_frames = least_of(least_frames, select(lanes, planned, infinite));
-      least_budget =
-          least_of(least_budget, select(lanes, (slack - loss * planned) * share, infinite));
+      least_budget = least_of(least_budget, select(lanes, (slack - loss * planned) * share, infinite));
     };
 
     const auto by_length =
@@ -221,12 +220,20 @@ HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& pr
   return result;
 }
 
+template <class Lanes, class Widths>
+HWY_INLINE WideLifetimes test_lifetime(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
+                                       const WideForecast& forecast, const WideLifetimeTest& test,
+                                       const Widths& widths) {
+  return test.touch_lanes != 0 ? lifetimes_of<Lanes, true>(node, probe, limits, forecast, test, widths)
+                               : lifetimes_of<Lanes, false>(node, probe, limits, forecast, test, widths);
+}
+
 template <class Lanes>
 WideLifetimes lifetime_of(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
                           const WideForecast& forecast, const WideLifetimeTest& test,
                           const WideWidthTest* widths) {
-  return widths == nullptr ? test_lifetime<Lanes, true>(node, probe, limits, forecast, test, NoWidths())
-                           : test_lifetime<Lanes, true>(node, probe, limits, forecast, test, *widths);
+  return widths == nullptr ? test_lifetime<Lanes>(node, probe, limits, forecast, test, NoWidths())
+                           : test_lifetime<Lanes>(node, probe, limits, forecast, test, *widths);
 }
 
 void lifetime_on_target(const WideNode& node, const WideProbe& probe, const WideLimits& limits,
@@ -267,17 +274,15 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
                                           : X.columns[0][k] * centre[0] + X.columns[1][k] * centre[1] +
                                                 X.columns[2][k] * centre[2] + X.translation[k];
     }
-    const auto test_by = [&](const auto& widths) HWY_ATTR {
-      return lifetime.touch_lanes != 0
-                 ? test_lifetime<VectorLanes, true>(node, probe, query.limits, forecast, lifetime, widths)
-                 : test_lifetime<VectorLanes, false>(node, probe, query.limits, forecast, lifetime, widths);
-    };
     WideLifetimes result;
-    if constexpr (std::is_same_v<Widths, WideWidthTest>)
-      result = test_by(make_width_test(open_a ? a : b, pair.node, open_a ? b : a,
-                                       open_a ? pair.slot_b : pair.slot_a, child_in_open));
-    else
-      result = test_by(NoWidths());
+    if constexpr (std::is_same_v<Widths, WideWidthTest>) {
+      const std::uint32_t slot = open_a ? pair.slot_b : pair.slot_a;
+      result = test_lifetime<VectorLanes>(
+          node, probe, query.limits, forecast, lifetime,
+          make_width_test(open_a ? a : b, pair.node, open_a ? b : a, slot, child_in_open));
+    } else {
+      result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime, NoWidths());
+    }
     const std::uint32_t final_lanes = pair.child.ref.is_feature() ? kinds.features : 0u;
     tests[i] = {due[i],
                 result.used,
