@@ -78,7 +78,9 @@ class Page(SharedScratch):
     def test_has_every_section_and_an_answer(self):
         for section in SECTIONS:
             self.assertEqual(len(self.browser.find_elements(By.ID, section)), 1, section)
-        self.assertIn("leaves the least force error", self.browser.find_element(By.CSS_SELECTOR, "#answer .lead").text)
+        # The latter on a slow machine, or under a sanitizer.
+        self.assertRegex(self.browser.find_element(By.CSS_SELECTOR, "#answer .lead").text,
+                         "leaves the least force error|No method keeps 99 % of its frames within 1 ms")
 
     def test_draws_the_papers_figures(self):
         widths = self.browser.execute_script("return Array.from(document.querySelectorAll('#paper img'), (image) => [image.complete, image.naturalWidth])")
