@@ -44,7 +44,7 @@ part() {
   develop) build_preset develop && ctest --preset develop --label-exclude heavy --parallel "$JOBS" --no-tests=error ;;
   heavy) build_preset release && ctest --preset release --label-regex heavy --parallel "$JOBS" --no-tests=error ;;
   asan-ubsan | tsan) scripts/sanitizer_tests.sh "$1" ;;
-  smallest) python3 scripts/smallest_build.py ;;
+  smallest) build_preset release >&2 && python3 scripts/smallest_build.py ;;
   packages) scripts/package.sh --check ;;
   cluster) scripts/cluster_test.sh ;;
   mutants) scripts/mutants.sh ;;
@@ -61,7 +61,7 @@ part() {
     local before
     before="$(git describe --tags --abbrev=0 --match 'v*' HEAD^ 2>/dev/null)" || before=""
     [[ -n $before ]] || { say "there is no release before this one" && return 0; }
-    scripts/ci_regression.sh "$before"
+    scripts/ci_regression.sh "$before" || (($? == 4)) # unsure, as its last line says
     ;;
   reference) all_meshes && scripts/reference.sh && python3 scripts/reference_ages.py ;;
   esac
