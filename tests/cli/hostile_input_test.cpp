@@ -25,7 +25,11 @@ using ::testing::Not;
 const std::string SHORT = SHAPES + "--set /frames=20 --set /driver/repetitions=1 ";
 
 /// Limit of processor time of a case: it does not depend on the load of the machine.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+const std::string PROCESSOR_SECONDS = "300";
+#else
 const std::string PROCESSOR_SECONDS = "20";
+#endif
 
 class HostileInput : public ::testing::Test {
  protected:
