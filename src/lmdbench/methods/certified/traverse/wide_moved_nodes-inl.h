@@ -26,7 +26,7 @@ namespace lmdbench::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Moved nodes of a first query; they grow by doubling.
-constexpr std::size_t MOVED_START = 256;
+constexpr std::size_t MOVED_START = 64;
 
 /// Moves rows of points, or of directions where the translation is zero.
 HWY_INLINE void move_rows(const float (*from)[WIDE_WIDTH], const WideTransform& X, const float* translation,

@@ -89,7 +89,7 @@ struct alignas(64) WideMovedNode {
 /// Pairs of children to be tested, last in first out. The first child is named by 8 times its
 /// node's place in WideScratch::moved + lane, the second by node * 8 + lane.
 struct WideStack {
-  static constexpr std::size_t START = 4096;  ///< Entries of a stack that has never been used.
+  static constexpr std::size_t START = 512;  ///< Entries of a stack that has never been used.
   std::vector<std::uint32_t> a, b;
   std::size_t size = 0;
 
