@@ -34,7 +34,7 @@ constexpr double LEAST = 1e-30;
 constexpr double PLAN_CUTOFFS = 8.0;
 /// A horizon saves repeated tests, but keeps more of them (swept by scripts/tuned_constants.py).
 /// Frames, search distances, radians.
-constexpr double LARGEST_HORIZON = 4.0, HORIZON_CUTOFFS = 1.0, HORIZON_TURN = 0.01;
+constexpr double LARGEST_HORIZON = 8.0, HORIZON_CUTOFFS = 1.0, HORIZON_TURN = 0.01;
 /// Relative rounding of the quantities below, generously, and of what is computed
 /// from them in single precision.
 constexpr double ROUNDING = 1e-12;
