@@ -72,7 +72,7 @@ def instructions(program, experiment, frames, folder):
     out = os.path.join(folder, "r.h5")
     done = run(["valgrind", "--tool=callgrind", "--toggle-collect=lmdbench::Certified::search*",
                 "--toggle-collect=lmdbench::WideHierarchy::follow*",
-                f"--callgrind-out-file={folder}/callgrind.out", program, "--quiet", "run", experiment,
+                f"--callgrind-out-file={folder}/callgrind.out", program, "run", experiment, "--verbose",
                 *SCENE, "--set", f"/frames={frames}", "--out", out], env=os.environ | {"OPENSSL_ia32cap": ":~0x0"})
     counted = re.search(r"Collected : (\d+)", done.stderr)
     named = re.search(r"hash ([0-9a-f]{16})", done.stdout)
