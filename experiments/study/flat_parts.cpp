@@ -38,7 +38,7 @@ constexpr double TAU = 2.0 * std::numbers::pi;
 constexpr double CUTOFF = 0.005;
 /// Step of a frame, as a share of the same diagonal.
 constexpr double STEP = scaling::SLIDE_DIAGONALS_PER_FRAME;
-constexpr std::size_t FRAMES = 61;
+constexpr std::size_t FRAMES = 21;
 /// Frames of a trembling motion: the method recognises it only after some frames.
 constexpr std::size_t TREMBLING_FRAMES = 121;
 
