@@ -44,9 +44,9 @@ const MethodDescription& certified_method();
 /// From frame to frame (keep/) step 1 reuses its tests, the filter's answers and gaps of triangles:
 /// each is valid for some frames if the motion goes on as forecast (wide_lifetime.h). A frame
 /// repeats what has run out, and what the motion deviates too far for (motion_forecast.h). Where
-/// much must be made or repeated, a frame makes a part of it and is searched from scratch meanwhile;
-/// so is one where the pose jumps or little is kept (coherence_policy.h). Where a mesh deforms, tests
-/// of nodes that changed are repeated (TraversalFront::follow). The set is the same.
+/// much must be made or repeated, a frame makes a part of it and is searched from scratch as well;
+/// so is one where the pose jumps or little is kept (coherence_policy.h). Where a mesh deforms,
+/// tests of nodes that changed are repeated (TraversalFront::follow). The set is the same.
 class Certified : public Method {
  public:
   enum class Counter : std::uint8_t {

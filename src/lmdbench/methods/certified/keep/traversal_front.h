@@ -21,8 +21,8 @@ namespace lmdbench {
 /// A traversal that is kept from frame to frame: its tests and the feature pairs ("leaves") that
 /// they let through, each valid for a plan (certificate_queue.h).
 /// 1. `start` asks for the test of the roots, `collect_due_tests` for those that are due.
-/// 2. `advance` makes tests, with lifetimes (wide_lifetime.h). A lane that survives is opened, so
-///    that another test is asked for, or becomes a leaf; one that no longer does is dropped with all
+/// 2. `advance` makes tests, with lifetimes (wide_lifetime.h). A lane that survives is opened,
+///    which asks for another test, or becomes a leaf; one that no longer does is dropped with all
 ///    below it.
 /// 3. Once no test is left to be made the front is complete. Leaves that are due are decided; a
 ///    decision has a certificate (PROOF.md, lemma 18).

@@ -185,7 +185,7 @@ HWY_INLINE WideLifetimes lifetimes_of(const WideNode& node, const WideProbe& pro
 
     const auto used = Lanes::not_zero(node.child, first);
     const auto soon = [&](Number slack, Number loss) HWY_ATTR { return slack <= loss * horizon; };
-    // Of a slack for deviations, less where the lane extends beyond the forecast's extent (lemma 17).
+    // Budget over slack: less where the lane extends beyond the forecast's extent (lemma 17).
     const Number share = least_of(extent / (from_origin + lever_arm), set(1.0F));
     // Plans leave DEVIATION_SHARE, base and drift of a slack, but use LEAST_SHARE of it.
     const auto spare = [&](Number slack) HWY_ATTR { return slack * rest - base; };
