@@ -34,17 +34,14 @@ algorithms side by side and reports the error beside the run time.")
 
 # Static: what its objects call is searched for by its users (src/lmdbench/library/lmdbenchConfig.cmake.in).
 set(needed libeigen3-dev libfmt-dev libhwy-dev libmeshoptimizer-dev libssl-dev)
-foreach(part "ASSIMP libassimp-dev" "FCL libfcl-dev" "TBB libtbb-dev")
+# libassimp-dev's files for CMake name zlib1g-dev, the package does not.
+foreach(part "ASSIMP libassimp-dev zlib1g-dev" "FCL libfcl-dev" "TBB libtbb-dev")
   separate_arguments(part)
-  list(GET part 0 option)
+  list(POP_FRONT part option)
   if(LMDBENCH_WITH_${option})
-    list(GET part 1 package)
-    list(APPEND needed ${package})
+    list(APPEND needed ${part})
   endif()
 endforeach()
-if(LMDBENCH_WITH_ASSIMP)
-  list(APPEND needed zlib1g-dev)  # libassimp-dev's files for CMake name it, the package does not.
-endif()
 list(JOIN needed ", " needed)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblmdbench-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -88,9 +88,9 @@ void expect_truth_on_swings(const Scene& scene, std::uint64_t seed) {
   for (const double speed : {0.0002, 0.001, 0.002, 0.01}) {
     const Pose pose = grazing_pose(scene, 0.01 * size, random);
     std::size_t lmds = 0;
-    // Of the fastest swing hardly anything that is kept stands.
+    // Of the fastest swing hardly anything stands: what is made to be kept is an eighth on top.
     expect_truth_along(scene, 0.03 * size, swing(pose, size, speed, 200, random), lmds,
-                       speed < 0.01 ? 1.0 : 1.25);
+                       speed < 0.01 ? 1.0 : 1.125);
     all += lmds;
   }
   EXPECT_GT(all, 300u);
