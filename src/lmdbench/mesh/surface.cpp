@@ -192,13 +192,15 @@ Vec3 Surface::pseudo_normal(const FeatureId& feature) const {
   return face_normals[i];
 }
 
-bool Surface::has_outer_side(const FeatureId& feature) const {
+bool Surface::is_one_fan(const FeatureId& feature) const {
   const auto i = static_cast<std::size_t>(feature.index);
-  if (is_boundary(feature) || (feature.kind == FeatureKind::EDGE && edge_is_non_manifold[i]) ||
-      (feature.kind == FeatureKind::VERTEX &&
-       (vertex_has_non_manifold_edge[i] || vertex_has_several_fans[i])))
-    return false;
-  return !pseudo_normal(feature).isZero(0.0);
+  return !is_boundary(feature) && !(feature.kind == FeatureKind::EDGE && edge_is_non_manifold[i]) &&
+         !(feature.kind == FeatureKind::VERTEX &&
+           (vertex_has_non_manifold_edge[i] || vertex_has_several_fans[i]));
+}
+
+bool Surface::has_outer_side(const FeatureId& feature) const {
+  return is_one_fan(feature) && !pseudo_normal(feature).isZero(0.0);
 }
 
 bool Surface::is_boundary(const FeatureId& feature) const {

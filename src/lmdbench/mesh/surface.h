@@ -59,9 +59,10 @@ struct Surface {
   /// the incident faces' normals, or zero; made on demand, because few ask for it.
   Vec3 pseudo_normal(const FeatureId& feature) const;
   Vec3 vertex_normal(std::int32_t vertex) const;
-  /// Whether the feature has an outer side: not on a boundary, its triangles one consistently
-  /// oriented fan (an edge: two), its pseudo-normal not zero. Connectivity is stored: all decisions
-  /// ask.
+  /// Whether the feature is not on a boundary, and its triangles are one consistently oriented fan
+  /// (of an edge: two). Stored: all decisions ask.
+  bool is_one_fan(const FeatureId& feature) const;
+  /// Whether the feature has an outer side: one fan, its pseudo-normal not zero.
   bool has_outer_side(const FeatureId& feature) const;
   /// A boundary edge, or a vertex on one; a face never is.
   bool is_boundary(const FeatureId& feature) const;

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/deformation.h>
+#include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
 #include <lmdbench/methods/certified/certified.h>
+#include <lmdbench/methods/certified/layout/wide_lane.h>
+#include <lmdbench/methods/certified/vector_target.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <gtest/gtest.h>
 #include <support/lmd_text.h>
@@ -184,6 +188,76 @@ TEST(DeformingCertified, FindsTheTruthOfCrumples) {
 /// A level sheet of n by n squares with a fold along x = 0.
 TriangleMesh sheet(int cells) {
   return make_patch(2.0, cells, 0.0);
+}
+
+/// Whether each lane's cone holds those of the features below it.
+::testing::AssertionResult cones_hold_what_is_below(const WideHierarchy& hierarchy) {
+  constexpr double ROUNDING = 3e-6;  // Of cones that were built, from others than the stored ones.
+  using Slot = std::pair<std::uint32_t, std::uint32_t>;
+  std::vector<std::vector<Slot>> below(hierarchy.nodes.size());
+  std::vector<std::uint32_t> order{0};
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (const std::uint32_t child : hierarchy.nodes[order[k]].child)
+      if (const WideRef ref = WideRef::from_bits(child); !ref.is_empty() && !ref.is_feature())
+        order.push_back(ref.node_index());
+  for (std::size_t k = order.size(); k-- > 0;) {
+    const WideNode& node = hierarchy.nodes[order[k]];
+    for (std::uint32_t lane = 0; lane < WIDE_WIDTH; ++lane) {
+      const WideRef ref = WideRef::from_bits(node.child[lane]);
+      if (ref.is_empty()) continue;
+      const std::vector<Slot> features =
+          ref.is_feature() ? std::vector<Slot>{{order[k], lane}} : below[ref.node_index()];
+      below[order[k]].insert(below[order[k]].end(), features.begin(), features.end());
+      if (ref.is_feature()) continue;
+      const Vec3 axis = axis_of_lane(node, lane);
+      for (const auto& [n, l] : features) {
+        const WideNode& of = hierarchy.nodes[n];
+        if (of.cosine[l] == NO_LMD_COSINE) continue;
+        if (axis.isZero(0.0) && node.cosine[lane] == 0.0F && node.sine[lane] == 1.0F) continue;
+        const Vec3 own = axis_of_lane(of, l);
+        const double angle = std::atan2(axis.cross(own).norm(), axis.dot(own));
+        // Each of the two numbers alone bounds the cone.
+        const double sum = angle + std::min(std::asin(std::min(1.0, static_cast<double>(of.sine[l]))),
+                                            std::acos(static_cast<double>(of.cosine[l])));
+        if (own.isZero(0.0) || !(std::cos(sum) >= static_cast<double>(node.cosine[lane]) - ROUNDING) ||
+            !(std::sin(sum) <= static_cast<double>(node.sine[lane]) + ROUNDING))
+          return ::testing::AssertionFailure() << "lane " << lane << " of node " << order[k] << ": lane " << l
+                                               << " of node " << n << " is outside";
+      }
+    }
+  }
+  return ::testing::AssertionSuccess();
+}
+
+TEST(DeformingCertified, BoundsHoldWhatIsBelowAndAreTheSameOnAllTargets) {
+  std::mt19937_64 random(21);
+  for (const DeformationKind kind :
+       {DeformationKind::BEND, DeformationKind::TWIST, DeformationKind::CRUMPLE}) {
+    for (const NamedMesh& deforming : meshes()) {
+      SCOPED_TRACE(deforming.name);
+      const Deformation deformation(deforming.mesh, {kind, 0.4, 0.6, random_direction(random), random()});
+      std::vector<WideNode> first;
+      for (const VectorTarget target : {VectorTarget::SCALAR, VectorTarget::SSE4, VectorTarget::AVX2,
+                                        VectorTarget::AVX512, VectorTarget::BEST}) {
+        if (!is_available(target)) continue;
+        const UseVectorTarget use(target);
+        const auto body = deforming_body(deforming.mesh);
+        const auto& hierarchy = body->prepared<WideHierarchy>();
+        std::vector<Vec3> vertices;
+        for (int step = 0; step < 6; ++step) {
+          deformation.at(0.02 * step, vertices);
+          body->deform(vertices);
+          EXPECT_TRUE(cones_hold_what_is_below(hierarchy)) << step;
+          EXPECT_TRUE(bounds_what_is_below(hierarchy, body->surface(), &body->prepared<ShapeComplex>()))
+              << step;
+        }
+        if (first.empty()) first = hierarchy.nodes;
+        ASSERT_EQ(first.size(), hierarchy.nodes.size());
+        EXPECT_EQ(std::memcmp(first.data(), hierarchy.nodes.data(), first.size() * sizeof(WideNode)), 0)
+            << static_cast<int>(target);
+      }
+    }
+  }
 }
 
 TEST(DeformingCertified, ASheetFoldsToARidgeAndBack) {

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,8 @@ using polar::Constraint, polar::Scratch;
 /// Crossings of planes closer to parallel than this (a sine) are left out: their neighbours bound
 /// the cone to within the slack (PROOF.md, lemma 4).
 constexpr double LEAST_CROSSING = 1e-6;
+/// Those that a WingSet has bits for.
+constexpr std::size_t MOST_WINGS = std::numeric_limits<WingSet>::digits;
 /// Planes at a larger sine cross clearly: most candidates are rejected without a root.
 constexpr double CLEAR_CROSSING = 0.2;
 /// Which of the crossings x and -x of two planes some constraint surely rejects (not those two
@@ -42,6 +46,7 @@ bool find_crossings(Scratch& work) {
   const std::size_t count = work.constraints.size();
   work.extremes.directions.clear();
   work.extremes.slack = 0.0;
+  work.extremes.wings = 0;
   bool crossed = false;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
@@ -65,10 +70,30 @@ bool find_crossings(Scratch& work) {
         if (rejected[sign] || !polar::satisfies(work.constraints, candidate, i, j, shift)) continue;
         work.extremes.directions.push_back(candidate);
         work.extremes.slack = std::max(work.extremes.slack, POLAR_SLACK + shift);
+        if (j < MOST_WINGS) work.extremes.wings |= 1u << i | 1u << j;
       }
     }
   }
   return crossed;
+}
+
+/// As find_crossings where only some constraints bound the cone: their crossings satisfy all others,
+/// so all that lies between them does. @return whether they do
+bool find_crossings_of_some(Scratch& work, WingSet wings) {
+  if (work.constraints.size() > MOST_WINGS) return false;
+  thread_local std::vector<Constraint> all;
+  all.clear();
+  std::swap(all, work.constraints);
+  for (WingSet left = wings; left != 0; left &= left - 1)
+    if (const auto i = static_cast<std::size_t>(std::countr_zero(left)); i < all.size())
+      work.constraints.push_back(all[i]);
+  const bool crossed = find_crossings(work);
+  work.extremes.wings = wings;
+  std::swap(all, work.constraints);
+  return crossed && std::ranges::all_of(work.extremes.directions, [&](const Vec3& direction) {
+           return polar::satisfies(work.constraints, direction, polar::NONE, polar::NONE,
+                                   work.extremes.slack);
+         });
 }
 
 /// Up to so many directions all crossings are tried; of more, those of a subset.
@@ -109,7 +134,8 @@ bool find_crossings_of_many(Scratch& work) {
   }
 }
 
-std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, const ShapeComplex* shape) {
+std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, const ShapeComplex* shape,
+                                   WingSet* bounding) {
   if (surface.adjacency.vertex_triangles[vertex].empty()) return std::nullopt;
   Scratch& work = polar::scratch();
   const double least_wing = shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0;
@@ -126,38 +152,46 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, 
       return constrain(surface.mesh.vertices[static_cast<std::size_t>(neighbour)] - p);
     });
   }
-  if (!find_crossings_of_many(work)) return PolarCap{};
+  const bool are_known = bounding != nullptr && *bounding != 0 && find_crossings_of_some(work, *bounding);
+  if (!are_known && !find_crossings_of_many(work)) return PolarCap{};
+  if (bounding != nullptr) *bounding = work.extremes.wings;
   if (work.extremes.directions.empty()) return std::nullopt;
-  // Of saddles and peaks no direction has to be dropped. What lies above every triangle lies on the
-  // side of their mean normal, which costs more to make.
-  const auto above_all = [&](const Vec3& direction) {
-    return std::ranges::all_of(surface.adjacency.vertex_triangles[vertex], [&](std::int32_t t) {
-      const Vec3& normal = surface.face_normals[static_cast<std::size_t>(t)];
-      return normal.isZero(0.0) || normal.dot(direction) > 0.0;
-    });
-  };
-  if (!std::ranges::all_of(work.extremes.directions, above_all)) {
-    const Vec3 outer = surface.vertex_normal(vertex);
-    const bool all_outer = std::ranges::all_of(
-        work.extremes.directions, [&](const Vec3& direction) { return direction.dot(outer) >= 0.0; });
-    if (!all_outer && surface.has_outer_side({FeatureKind::VERTEX, vertex})) {
-      work.constraints.push_back({-outer, POLAR_SLACK});
-      find_crossings(work);
+  if (!surface.is_one_fan({FeatureKind::VERTEX, vertex})) return polar::cap_around(work.extremes);
+  // Of saddles and peaks no direction has to be dropped, of pits each. What lies above, or clearly
+  // below, every triangle lies so by their mean normal, which costs more to make.
+  bool all_above = true, all_below = true;
+  const double clearly_below = -(POLAR_SLACK + 2.0 * work.extremes.slack);
+  for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex]) {
+    const Vec3& normal = surface.face_normals[static_cast<std::size_t>(t)];
+    if (normal.isZero(0.0)) continue;
+    for (const Vec3& direction : work.extremes.directions) {
+      const double height = normal.dot(direction);
+      all_above = all_above && height > 0.0;
+      all_below = all_below && height < clearly_below;
     }
+  }
+  if (all_above) return polar::cap_around(work.extremes);
+  if (all_below) return std::nullopt;
+  const Vec3 outer = surface.vertex_normal(vertex);
+  if (!outer.isZero(0.0) && std::ranges::any_of(work.extremes.directions, [&](const Vec3& direction) {
+        return direction.dot(outer) < 0.0;
+      })) {
+    work.constraints.push_back({-outer, POLAR_SLACK});
+    find_crossings(work);
   }
   return polar::cap_around(work.extremes);
 }
 
 }  // namespace
 
-std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature,
-                                  const ShapeComplex* shape) {
+std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature, const ShapeComplex* shape,
+                                  WingSet* bounding) {
   const auto of_normal = [](const Vec3& normal) {
     return PolarCap{normal, 1.0 - 0.5 * POLAR_SLACK * POLAR_SLACK, POLAR_SLACK};
   };
   switch (feature.kind) {
     case FeatureKind::VERTEX:
-      return vertex_cap(surface, feature.index, shape);
+      return vertex_cap(surface, feature.index, shape, bounding);
     case FeatureKind::EDGE:
       if (shape != nullptr && !shape->is_plain_chain(surface, shape->chain_of(feature.index)))
         return polar::chain_cap(surface, *shape, shape->chain_of(feature.index));

@@ -5,6 +5,7 @@
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/shape/shape_complex.h>
 
+#include <cstdint>
 #include <optional>
 
 namespace lmdbench {
@@ -30,6 +31,9 @@ inline constexpr double POLAR_SLACK = 2e-6;
 /// cap.
 inline constexpr double LEAST_WING = 1e-6;
 
+/// Bits of a vertex's wings, of which only the first 32 have one.
+using WingSet = std::uint32_t;
+
 /// Cap of a feature (PROOF.md, lemmas 4 to 6); nothing where the polar cone is empty even with the
 /// slack: a reflex edge, a saddle or a pit carries no LMD. Nor does a face without area.
 ///
@@ -38,7 +42,10 @@ inline constexpr double LEAST_WING = 1e-6;
 /// other constraints, up to the slack amplified by how obliquely the two cross, bound it. Boundary
 /// and non-manifold features have no outer side and usually get all directions.
 /// @param shape  where given, the feature is the lead of one of its regions, chains or corners
+/// @param bounding  of a vertex, where given: wings that bounded the cone of nearly the same vertex,
+///   0 for unknown; becomes those that bound this one. Where no other wing cuts off what these
+///   leave, none is searched.
 std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature,
-                                  const ShapeComplex* shape = nullptr);
+                                  const ShapeComplex* shape = nullptr, WingSet* bounding = nullptr);
 
 }  // namespace lmdbench

@@ -71,6 +71,7 @@ Scratch& scratch() {
   instance.constraints.clear();
   instance.extremes.directions.clear();
   instance.extremes.slack = 0.0;
+  instance.extremes.wings = 0;
   return instance;
 }
 

@@ -23,6 +23,7 @@ struct Constraint {
 struct Extremes {
   std::vector<Vec3> directions;
   double slack = 0.0;
+  WingSet wings = 0;  ///< Constraints whose planes cross there.
 };
 
 /// Scratch memory of one thread: caps are built for every feature of a mesh.

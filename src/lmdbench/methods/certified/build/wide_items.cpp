@@ -29,8 +29,9 @@ PolarCap widened(const PolarCap& cap, double angle) {
 }  // namespace
 
 std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComplex* shape,
-                                       const SignedFeatures* signs, const FeatureId& feature) {
-  std::optional<PolarCap> cap = polar_cap(surface, feature, shape);
+                                       const SignedFeatures* signs, const FeatureId& feature,
+                                       WingSet* bounding) {
+  std::optional<PolarCap> cap = polar_cap(surface, feature, shape, bounding);
   if (signs != nullptr)
     if (const auto signed_one = signed_cap(*signs, *shape, feature))
       cap = cap ? merged_caps(*cap, *signed_one) : *signed_one;

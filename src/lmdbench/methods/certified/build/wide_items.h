@@ -23,8 +23,10 @@ struct WideItem {
 
 /// A feature as a hierarchy owns it; nothing where it has no LMD and is no triangle without area.
 /// @param feature  of a shape the lead
+/// @param bounding  of a vertex, see polar_cap
 std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComplex* shape,
-                                       const SignedFeatures* signs, const FeatureId& feature);
+                                       const SignedFeatures* signs, const FeatureId& feature,
+                                       WingSet* bounding = nullptr);
 
 /// The features that a hierarchy owns: vertices, edges, faces, by index; flat ones by leads.
 std::vector<WideItem> collect_wide_items(const Surface& surface, const ShapeComplex* shape,

@@ -2,19 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/methods/certified/build/wide_bounds.h>
-#include <lmdbench/methods/certified/build/wide_items.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/methods/certified/traverse/wide_traversal.h>
 #include <lmdbench/shape/shape_complex.h>
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 namespace lmdbench {
-
-/// Bounds of single lanes where a hierarchy follows a mesh (wide_refit.h), all rounded outwards.
 
 /// Cost of a lane, up to a factor: its size and its gain by opening (wide_traversal.h).
 inline double lane_cost(const WideNode& node, std::uint32_t lane) {
@@ -22,46 +17,22 @@ inline double lane_cost(const WideNode& node, std::uint32_t lane) {
   return static_cast<double>(node.radius[lane] * opening_gain(node.radius[lane], node.sine[lane]));
 }
 
-/// Bounds a lane that holds a feature of one vertex, edge or triangle.
-void bound_feature(WideNode& node, std::uint32_t lane, const WideHierarchy& hierarchy, const Surface& surface,
-                   const WideItem& item);
-
-/// Bounds lanes that hold nodes, those of one node side by side (wide_bounds.h). One a thread: it
-/// is scratch memory. A lane is bounded round the lanes of the nodes two levels below it, where
-/// there are any: from one level below, bounds are so large that a search makes a fifth more node
-/// tests.
-class InnerBounds {
- public:
-  /// @param lanes bits of lanes that hold nodes, whose own lanes are bounded
-  void bound(WideNode& node, std::uint32_t lanes, const WideHierarchy& hierarchy, const Surface& surface,
-             const ShapeComplex& shape);
-
- private:
-  static constexpr std::size_t MOST_PARTS = WIDE_WIDTH * WIDE_WIDTH;
-  /// A lane of some node.
-  struct Part {
-    const WideNode* node = nullptr;
-    std::uint32_t lane = 0;
-    bool carries_lmd() const { return node->cosine[lane] != NO_LMD_COSINE; }
-  };
-  /// What a lane is bounded round.
-  struct Lane {
-    bool carries_lmd = false, has_axis = false;
-    std::size_t part_count = 0;
-    std::array<Part, MOST_PARTS> parts;
-    /// All parts are single vertices, edges or triangles; `points`: their vertices, else centres.
-    bool all_plain = true;
-    std::size_t point_count = 0;
-    std::array<Vec3, MOST_PARTS> points;  ///< From the hierarchy's origin [m].
-  };
-  static void collect(Lane& lane, const WideNode& below, const WideHierarchy& hierarchy,
-                      const Surface& surface, const ShapeComplex& shape);
-  void put_caps(std::uint32_t lane, Lane& content, std::size_t count);
-  static PolarCap cap_about(const Lane& lane, const Vec3& chosen_axis);
-
-  std::array<Lane, WIDE_WIDTH> lanes_;
-  LaneCaps caps_;
-  LaneSets points_;
-};
+/// Bounds lanes of a node anew where a hierarchy follows a mesh (wide_refit.h), rounded outwards.
+///
+/// 1. Lanes of features, whose cones are stored already: their vertices, eight lanes side by side.
+/// 2. A lane of a node: what is two levels below it, where there is anything; from one level below
+///    bounds are so large that a search makes a fifth more node tests. Of a node of single vertices,
+///    edges and triangles their vertices. Eight of these side by side.
+///    a. *Cone.* The lane's axis before, or the middle of the axes' box, whichever needs the smaller
+///       cone, moved by a few steps towards the cone that sticks out most (M. Badoiu, K. Clarkson,
+///       "Smaller core-sets for balls", 2003, on the sphere). None from 90 degrees on, where a cone
+///       is not convex (decision E1).
+///    b. *Body.* Its centre likewise: before, or the middle of the box; along the axis the middle of
+///       the extent.
+/// All in single precision, measured from what is stored. Lengths are those from a point nearby, so
+/// that what rounding adds is a millionth of the lane. No operation depends on the processor.
+/// @param lanes  bits of the lanes; none is empty. Of nodes, lanes below are bounded already
+void refit_lanes(WideNode& node, std::uint32_t lanes, const WideHierarchy& hierarchy, const Surface& surface,
+                 const ShapeComplex& shape);
 
 }  // namespace lmdbench

@@ -5,6 +5,7 @@
 #include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
 #include <lmdbench/methods/certified/deform/refit_bounds.h>
 #include <lmdbench/methods/certified/deform/wide_refit.h>
+#include <lmdbench/methods/certified/layout/wide_lane.h>
 
 #include <algorithm>
 #include <bit>
@@ -27,12 +28,12 @@ constexpr double RADIUS_ROOM = 1.1;
 
 }  // namespace
 
-WideRefit::WideRefit(const WideHierarchy& hierarchy, const Surface& surface, const ShapeComplex& shape)
-    : bounds_(std::make_unique<PerThread<InnerBounds>>([] { return InnerBounds(); })) {
+WideRefit::WideRefit(const WideHierarchy& hierarchy, const Surface& surface, const ShapeComplex& shape) {
   slots_[static_cast<std::size_t>(FeatureKind::VERTEX)].assign(surface.mesh.vertices.size(), NO_SLOT);
   slots_[static_cast<std::size_t>(FeatureKind::EDGE)].assign(surface.adjacency.edges.size(), NO_SLOT);
   slots_[static_cast<std::size_t>(FeatureKind::FACE)].assign(surface.mesh.triangles.size(), NO_SLOT);
   witnesses_.assign(surface.mesh.vertices.size(), NO_WITNESS);
+  bounding_wings_.assign(surface.mesh.vertices.size(), 0);
   parents_.assign(hierarchy.nodes.size(), 0);
   depths_.assign(hierarchy.nodes.size(), 0);
   marked_lanes_.assign(hierarchy.nodes.size(), 0);
@@ -55,8 +56,7 @@ WideRefit::WideRefit(const WideHierarchy& hierarchy, const Surface& surface, con
   // Growth is measured against refitted bounds, which are larger than built ones.
   WideHierarchy merged = hierarchy;
   const double built = inner_cost_;
-  for (std::uint32_t n = 0; n < hierarchy.nodes.size(); ++n)
-    for (std::uint32_t lane = 0; lane < WIDE_WIDTH; ++lane) mark(n * WIDE_WIDTH + lane);
+  for (std::uint32_t n = 1; n < hierarchy.nodes.size(); ++n) mark(parents_[n]);
   refit_marked(merged, surface, shape);
   cost_when_built_ = inner_over_leaves();
   inner_cost_ = built;
@@ -115,6 +115,8 @@ void WideRefit::insert(WideHierarchy& hierarchy, const Surface& surface, const F
     above.child[lane] = WideRef::node(added).bits();
     inner_cost_ += lane_cost(above, lane);
     hierarchy.changes.lanes[beside / WIDE_WIDTH] = hierarchy.changes.now;
+    if ((marked_lanes_[beside / WIDE_WIDTH] >> lane & 1u) != 0)
+      mark(added * WIDE_WIDTH);  // Still to be bounded.
     mark(beside);
     slot = added * WIDE_WIDTH + 1;
   }
@@ -134,9 +136,11 @@ std::optional<WideItem> WideRefit::vertex_item(const Surface& surface, const Sha
   const double least_wing = LEAST_WING * shape.regions.extent;
   if (witness != NO_WITNESS && is_clear_saddle(surface, vertex, witness, least_wing)) return std::nullopt;
   const FeatureId feature{FeatureKind::VERTEX, vertex};
-  if (const std::optional<PolarCap> cap = clear_peak_cap(surface, vertex, least_wing))
-    return WideItem{*cap, WideRef::feature(feature), true};
-  std::optional<WideItem> item = make_wide_item(surface, &shape, nullptr, feature);
+  WingSet& bounding = bounding_wings_[static_cast<std::size_t>(vertex)];
+  if (bounding == 0)
+    if (const std::optional<PolarCap> cap = clear_peak_cap(surface, vertex, least_wing))
+      return WideItem{*cap, WideRef::feature(feature), true};
+  std::optional<WideItem> item = make_wide_item(surface, &shape, nullptr, feature, &bounding);
   if (!item) witness = find_saddle_witness(surface, vertex);
   return item;
 }
@@ -144,8 +148,8 @@ std::optional<WideItem> WideRefit::vertex_item(const Surface& surface, const Sha
 void WideRefit::update_features(WideHierarchy& hierarchy, const Surface& surface, const ShapeComplex& shape,
                                 FeatureKind kind, std::span<const std::int32_t> indices) {
   items_.resize(std::max(items_.size(), indices.size()));
-  cost_changes_.resize(items_.size());
-  // A feature with a lane is bounded at once: no two share one.
+  costs_.resize(items_.size());
+  // The cone of a feature with a lane is stored at once: no two share one.
   parallel_ranges(indices.size(), FEATURES_A_TASK, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const FeatureId feature{kind, indices[i]};
@@ -154,9 +158,8 @@ void WideRefit::update_features(WideHierarchy& hierarchy, const Surface& surface
       const std::uint32_t slot = slot_of(feature);
       if (!items_[i] || slot == NO_SLOT) continue;
       WideNode& node = hierarchy.nodes[slot / WIDE_WIDTH];
-      const double before = lane_cost(node, slot % WIDE_WIDTH);
-      bound_feature(node, slot % WIDE_WIDTH, hierarchy, surface, *items_[i]);
-      cost_changes_[i] = lane_cost(node, slot % WIDE_WIDTH) - before;
+      costs_[i] = lane_cost(node, slot % WIDE_WIDTH);
+      store_cap(node, slot % WIDE_WIDTH, items_[i]->cap, items_[i]->carries_lmd);
     }
   });
   for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -168,11 +171,10 @@ void WideRefit::update_features(WideHierarchy& hierarchy, const Surface& surface
     if (slot_of(feature) == NO_SLOT) {
       insert(hierarchy, surface, feature);
       const std::uint32_t slot = slot_of(feature);
-      WideNode& node = hierarchy.nodes[slot / WIDE_WIDTH];
-      bound_feature(node, slot % WIDE_WIDTH, hierarchy, surface, *items_[i]);
-      leaf_cost_ += lane_cost(node, slot % WIDE_WIDTH);
+      store_cap(hierarchy.nodes[slot / WIDE_WIDTH], slot % WIDE_WIDTH, items_[i]->cap,
+                items_[i]->carries_lmd);
     } else {
-      leaf_cost_ += cost_changes_[i];
+      leaf_cost_ -= costs_[i];  // Until its body is bounded.
     }
     mark(slot_of(feature));
   }
@@ -183,26 +185,29 @@ void WideRefit::refit_marked(WideHierarchy& hierarchy, const Surface& surface, c
     const std::vector<std::uint32_t>& nodes = marked_[depth];
     cost_changes_.resize(std::max(cost_changes_.size(), nodes.size()));
     parallel_ranges(nodes.size(), NODES_A_TASK, [&](std::size_t begin, std::size_t end) {
-      InnerBounds& bounds = bounds_->local();
       for (std::size_t i = begin; i < end; ++i) {
         WideNode& node = hierarchy.nodes[nodes[i]];
+        cost_changes_[i] = {};
         std::uint32_t lanes = 0;
-        cost_changes_[i] = 0.0;
         for (std::uint32_t left = marked_lanes_[nodes[i]]; left != 0; left &= left - 1) {
           const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
           const WideRef ref = WideRef::from_bits(node.child[lane]);
-          if (ref.is_empty() || ref.is_feature()) continue;
+          if (ref.is_empty()) continue;
           lanes |= 1u << lane;
-          cost_changes_[i] -= lane_cost(node, lane);
+          if (!ref.is_feature()) cost_changes_[i].inner -= lane_cost(node, lane);
         }
-        if (lanes == 0) continue;
-        bounds.bound(node, lanes, hierarchy, surface, shape);
-        for (std::uint32_t left = lanes; left != 0; left &= left - 1)
-          cost_changes_[i] += lane_cost(node, static_cast<std::uint32_t>(std::countr_zero(left)));
+        refit_lanes(node, lanes, hierarchy, surface, shape);
+        for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+          const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+          (WideRef::from_bits(node.child[lane]).is_feature() ? cost_changes_[i].leaf
+                                                             : cost_changes_[i].inner) +=
+              lane_cost(node, lane);
+        }
       }
     });
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      inner_cost_ += cost_changes_[i];
+      inner_cost_ += cost_changes_[i].inner;
+      leaf_cost_ += cost_changes_[i].leaf;
       marked_lanes_[nodes[i]] = 0;
       hierarchy.changes.bounds[nodes[i]] = hierarchy.changes.now;
       if (nodes[i] != 0) mark(parents_[nodes[i]]);  // Of the depth above.

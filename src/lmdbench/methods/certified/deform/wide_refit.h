@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/base/parallel.h>
 #include <lmdbench/mesh/surface_change.h>
 #include <lmdbench/methods/certified/build/wide_items.h>
 #include <lmdbench/methods/certified/deform/clear_vertex.h>
-#include <lmdbench/methods/certified/deform/refit_bounds.h>
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/shape/shape_complex.h>
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -50,21 +47,26 @@ class WideRefit {
   void insert(WideHierarchy& hierarchy, const Surface& surface, const FeatureId& feature);
   void remove(WideHierarchy& hierarchy, const FeatureId& feature);
   void refit_marked(WideHierarchy& hierarchy, const Surface& surface, const ShapeComplex& shape);
+  struct CostChange {
+    double inner = 0.0, leaf = 0.0;
+  };
+
   double inner_over_leaves() const { return inner_cost_ / leaf_cost_; }
 
   /// By kind: node * 8 + lane of each feature, or NO_SLOT.
   std::array<std::vector<std::uint32_t>, 3> slots_;
-  std::vector<SaddleWitness> witnesses_;            ///< #V: of vertices that are clear saddles.
-  std::vector<std::uint32_t> parents_;              ///< #nodes: the slot above each; of the root 0.
-  std::vector<std::uint32_t> depths_;               ///< #nodes: number of nodes above each.
-  std::vector<std::uint32_t> marked_lanes_;         ///< #nodes: bits of lanes changed in or below.
+  std::vector<SaddleWitness> witnesses_;     ///< #V: of vertices that are clear saddles.
+  std::vector<WingSet> bounding_wings_;      ///< #V: of vertices that are neither these nor clear peaks.
+  std::vector<std::uint32_t> parents_;       ///< #nodes: the slot above each; of the root 0.
+  std::vector<std::uint32_t> depths_;        ///< #nodes: number of nodes above each.
+  std::vector<std::uint32_t> marked_lanes_;  ///< #nodes: bits of lanes changed in or below.
   std::vector<std::vector<std::uint32_t>> marked_;  ///< By depth: nodes with such lanes.
   double inner_cost_ = 0.0, leaf_cost_ = 0.0;       ///< Sums of lane_cost.
   double cost_when_built_ = 0.0;  ///< inner_over_leaves of the built tree, inner bounds refitted.
   std::size_t inserted_ = 0;
   std::vector<std::optional<WideItem>> items_;  ///< Scratch: of updated features of a kind.
-  std::vector<double> cost_changes_;            ///< Scratch.
-  std::unique_ptr<PerThread<InnerBounds>> bounds_;
+  std::vector<double> costs_;                   ///< Scratch: of their lanes before.
+  std::vector<CostChange> cost_changes_;        ///< Scratch: by nodes.
 };
 
 }  // namespace lmdbench
