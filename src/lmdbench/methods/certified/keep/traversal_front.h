@@ -11,7 +11,6 @@
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -88,19 +87,22 @@ class TraversalFront {
   std::size_t pair_count() const { return leaf_queue_.count(); }
 
  private:
-  /// What the test of a pair let through.
+  static constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max();
+  enum class State : std::uint8_t { UNUSED, REQUESTED, TESTED };
+  /// What the test of a pair let through, in lists: a pile keeps thousands. They have the order of
+  /// the lanes, so that what is dropped or added is always done in the same order.
   struct Record {
-    bool in_use = false;
-    bool is_requested = false;       ///< Its test is to be made.
-    std::uint32_t opened_lanes = 0;  ///< Lanes that have a record in `below`.
-    std::uint32_t lmd_lanes = 0;     ///< Lanes that have a leaf in `below`.
-    std::uint32_t touch_lanes = 0;   ///< Lanes that have a leaf in `touching`.
-    std::array<std::uint32_t, WIDE_WIDTH> below{};
-    std::array<std::uint32_t, WIDE_WIDTH> touching{};
+    std::uint32_t first_below = NONE;  ///< Record of the last opened lane.
+    std::uint32_t next = NONE;         ///< Of the list that it is in.
+    std::uint32_t first_leaf = NONE;   ///< Of the first bit of `leaf_lanes`.
+    std::uint16_t leaf_lanes = 0;      ///< Lanes that have a leaf; << WIDE_WIDTH: that touches.
+    std::uint8_t opened_lanes = 0;     ///< Lanes that have a record.
+    State state = State::REQUESTED;
   };
   struct Leaf {
     WidePair pair;
     std::uint32_t slot_a;
+    std::uint32_t next;
     bool touches;
   };
   struct Work {
@@ -115,11 +117,10 @@ class TraversalFront {
   std::uint32_t add_record(const WideHierarchy& a, const WideHierarchy& b, std::uint32_t slot_a,
                            std::uint32_t slot_b);
   std::uint32_t add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair, bool touches);
-  void drop_record(std::uint32_t record);
-  /// Drops the pairs that a test let through, and puts its records on `dropping_`.
-  void drop_below(const Record& record);
-  /// Drops the records on `dropping_` and all below them.
-  void finish_dropping();
+  /// Drops the pairs that a record's test let through.
+  void drop_leaves(const Record& record);
+  /// Drops a list of records and all below them.
+  void drop_records(std::uint32_t first);
   void apply(const Work& work, const WideKeptTest& test);
 
   // By the indices of the queues; later entries are unused.
@@ -128,8 +129,8 @@ class TraversalFront {
   CertificateQueue test_queue_;
   SteadyArray<Leaf> leaves_;
   CertificateQueue leaf_queue_;
-  std::vector<std::uint32_t> requested_;               ///< Tests that are to be made.
-  std::vector<std::uint32_t> batch_, dropping_, due_;  ///< Scratch.
+  std::vector<std::uint32_t> requested_;    ///< Tests that are to be made.
+  std::vector<std::uint32_t> batch_, due_;  ///< Scratch.
   std::vector<WideKeptTest> tests_;
 };
 
