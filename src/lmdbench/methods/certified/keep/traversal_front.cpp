@@ -185,34 +185,36 @@ void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b) {
   add_record(a, b, 0, 0);
 }
 
-std::size_t TraversalFront::collect_due_tests(const MotionForecast& motion) {
-  test_queue_.collect(motion, batch_);
-  requested_.reserve(batch_.capacity());  // As of the queue: none is allocated later.
-  for (const std::uint32_t index : batch_) records_[index].state = State::REQUESTED;
-  requested_.insert(requested_.begin(), batch_.begin(), batch_.end());
-  return batch_.size();
+std::size_t TraversalFront::collect_due_tests(const MotionForecast& motion, Scratch& scratch) {
+  std::vector<std::uint32_t>& due = scratch.batch;
+  test_queue_.collect(motion, due, scratch.queue);
+  requested_.reserve(std::bit_ceil(test_queue_.size()));  // None is allocated later.
+  for (const std::uint32_t index : due) records_[index].state = State::REQUESTED;
+  requested_.insert(requested_.begin(), due.begin(), due.end());
+  return due.size();
 }
 
 void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                              const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-                             std::size_t most, WideCounters& counters) {
+                             std::size_t most, WideCounters& counters, Scratch& scratch) {
+  std::vector<std::uint32_t>& batch = scratch.batch;
   const Work work{a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters};
   while (!requested_.empty() && most > 0) {
     // An index that was dropped and reused while it waited is in the list twice.
-    batch_.clear();
+    batch.clear();
     std::size_t taken = 0;
-    while (taken < requested_.size() && batch_.size() < most) {
+    while (taken < requested_.size() && batch.size() < most) {
       const std::uint32_t index = requested_[taken++];
       if (records_[index].state != State::REQUESTED) continue;
       records_[index].state = State::TESTED;
-      batch_.push_back(index);
+      batch.push_back(index);
     }
     requested_.erase(requested_.begin(), requested_.begin() + static_cast<std::ptrdiff_t>(taken));
-    most -= batch_.size();
+    most -= batch.size();
     // No batch is larger, so none allocates later.
-    tests_.reserve(std::bit_ceil(records_.size()));
-    test_batch(work.a, work.b, work.query, work.forecast, pairs_, batch_, tests_);
-    for (const WideKeptTest& test : tests_) {
+    scratch.tests.reserve(std::bit_ceil(records_.size()));
+    test_batch(work.a, work.b, work.query, work.forecast, pairs_, batch, scratch.tests);
+    for (const WideKeptTest& test : scratch.tests) {
       // Not where an earlier test of the batch dropped the pair, or gave its index to a new one.
       if (records_[test.pair].state == State::TESTED) apply(work, test);
     }

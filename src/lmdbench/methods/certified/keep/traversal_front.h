@@ -29,6 +29,15 @@ namespace lmdbench {
 /// opened.
 class TraversalFront {
  public:
+  /// Memory of a frame's search: what it holds means nothing to the next one, and fronts lend it to
+  /// each other.
+  struct Scratch {
+    CertificateQueue::Scratch queue;
+    std::vector<std::uint32_t> due;  ///< Pairs: from `collect_due` on.
+    std::vector<std::uint32_t> batch;
+    std::vector<WideKeptTest> tests;
+  };
+
   void clear();
   bool empty() const { return test_queue_.size() == 0; }
   bool is_complete() const { return !empty() && requested_.empty(); }
@@ -42,25 +51,27 @@ class TraversalFront {
               const MotionForecast& motion);
 
   /// Asks for the tests that are due, once a frame. @return how many there are
-  std::size_t collect_due_tests(const MotionForecast& motion);
+  std::size_t collect_due_tests(const MotionForecast& motion, Scratch& scratch);
   /// Makes the tests that are asked for; those of this frame's collect_due_tests come first.
   /// @param most  tests that are made
   void advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-               std::size_t most, WideCounters& counters);
+               std::size_t most, WideCounters& counters, Scratch& scratch);
 
   /// Finds the pairs that are due, once a frame.
-  void collect_due(const MotionForecast& motion) { leaf_queue_.collect(motion, due_); }
+  void collect_due(const MotionForecast& motion, Scratch& scratch) {
+    leaf_queue_.collect(motion, scratch.due, scratch.queue);
+  }
   /// In place of deciding them.
-  void postpone_due(const MotionForecast& motion) {
-    for (const std::uint32_t i : due_) leaf_queue_.plan_next(i, motion);
+  void postpone_due(const MotionForecast& motion, const Scratch& scratch) {
+    for (const std::uint32_t i : scratch.due) leaf_queue_.plan_next(i, motion);
   }
   /// Calls decide(pair, touches, lever_arm), which returns its Certificate, for every pair that is
   /// due and chosen(pair, touches), in one call a frame. `touches`: faces that may touch.
   template <class Decide, class Chosen>
   void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double search_distance,
-                    Decide&& decide, Chosen&& chosen) {
-    for (const std::uint32_t i : due_) {
+                    const Scratch& scratch, Decide&& decide, Chosen&& chosen) {
+    for (const std::uint32_t i : scratch.due) {
       const Leaf& leaf = leaves_[i];
       if (!chosen(leaf.pair, leaf.touches)) continue;
       plan_leaf(a, motion, i, decide(leaf.pair, leaf.touches, lever_arm_of(a, i, search_distance)));
@@ -70,8 +81,8 @@ class TraversalFront {
   /// Calls visit(leaf, pair) for every pair of faces that may touch and is due. Each must be given
   /// to plan_leaf in this frame.
   template <class Visit>
-  void for_each_due_touching(Visit&& visit) const {
-    for (const std::uint32_t i : due_)
+  void for_each_due_touching(const Scratch& scratch, Visit&& visit) const {
+    for (const std::uint32_t i : scratch.due)
       if (leaves_[i].touches) visit(i, leaves_[i].pair);
   }
   /// Keeps the decision about a pair that was due.
@@ -129,9 +140,7 @@ class TraversalFront {
   CertificateQueue test_queue_;
   SteadyArray<Leaf> leaves_;
   CertificateQueue leaf_queue_;
-  std::vector<std::uint32_t> requested_;    ///< Tests that are to be made.
-  std::vector<std::uint32_t> batch_, due_;  ///< Scratch.
-  std::vector<WideKeptTest> tests_;
+  std::vector<std::uint32_t> requested_;  ///< Tests that are to be made.
 };
 
 }  // namespace lmdbench
