@@ -110,13 +110,12 @@ void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const 
   for (std::uint32_t i = 0; i < test_queue_.size(); ++i) {
     Record& record = records_[i];
     if (record.state == State::UNUSED) continue;
-    WideKeptPair& pair = pairs_[i];
+    const WideKeptPair& pair = pairs_[i];
     const WideHierarchy &opened = pair.open_a ? a : b, &other = pair.open_a ? b : a;
     const std::uint32_t seen_opened = pair.open_a ? seen_a : seen_b,
                         seen_other = pair.open_a ? seen_b : seen_a;
-    const std::uint32_t slot = pair.open_a ? pair.slot_b : pair.slot_a;
     if (!opened.changes.bounds_after(pair.node, seen_opened) &&
-        !other.changes.bounds_after(slot / WIDE_WIDTH, seen_other))
+        !other.changes.bounds_after(pair.other_slot() / WIDE_WIDTH, seen_other))
       continue;
     // Where the other child is a new one, the record that opened its node drops this pair.
     if (opened.changes.lanes_after(pair.node, seen_opened)) {
@@ -125,7 +124,6 @@ void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const 
       record.first_below = record.first_leaf = NONE;
       record.opened_lanes = record.leaf_lanes = 0;
     }
-    pair.child = WideChild(other.nodes[slot / WIDE_WIDTH], slot % WIDE_WIDTH);
     test_queue_.plan_now(i, motion);
     for (std::uint32_t leaf = record.first_leaf; leaf != NONE; leaf = leaves_[leaf].next)
       leaf_queue_.plan_now(leaf, motion);
