@@ -131,7 +131,6 @@ void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const 
 }
 
 void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
-  // Records may move when one is added (SteadyArray): by index, no reference is kept.
   const std::uint32_t index = test.pair;
   test_queue_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.deviation_budget),
                    work.motion);
@@ -139,10 +138,11 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
   work.counters.node_pairs += LANE_LISTS[test.used].count;
 
   const std::uint32_t leaf_lanes = test.lmd | test.touch << WIDE_WIDTH;
-  std::uint32_t change_opened = test.opened ^ records_[index].opened_lanes,
-                change_leaves = leaf_lanes ^ records_[index].leaf_lanes;
+  Record& record = records_[index];
+  std::uint32_t change_opened = test.opened ^ record.opened_lanes,
+                change_leaves = leaf_lanes ^ record.leaf_lanes;
   if ((change_opened | change_leaves) == 0) return;
-  const WideKeptPair pair = pairs_[index];
+  const WideKeptPair& pair = pairs_[index];
   const std::uint32_t first_slot = pair.node * WIDE_WIDTH;
   const auto slot_a_of = [&](std::uint32_t lane) { return pair.open_a ? first_slot + lane : pair.slot_a; };
   const auto slot_b_of = [&](std::uint32_t lane) { return pair.open_a ? pair.slot_b : first_slot + lane; };
@@ -154,27 +154,27 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
   };
   for (; change_opened != 0; change_opened &= change_opened - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(change_opened));
-    const std::uint32_t before = std::uint32_t{records_[index].opened_lanes} >> (lane + 1);
+    const std::uint32_t before = std::uint32_t{record.opened_lanes} >> (lane + 1);
     if ((test.opened >> lane & 1u) == 0) {
-      std::uint32_t& link = link_after(before, records_, records_[index].first_below);
+      std::uint32_t& link = link_after(before, records_, record.first_below);
       drop_records(std::exchange(link, std::exchange(records_[link].next, NONE)));
     } else {
       const std::uint32_t added = add_record(work.a, work.b, slot_a_of(lane), slot_b_of(lane));
-      records_[added].next = std::exchange(link_after(before, records_, records_[index].first_below), added);
+      records_[added].next = std::exchange(link_after(before, records_, record.first_below), added);
     }
-    records_[index].opened_lanes ^= static_cast<std::uint8_t>(1u << lane);
+    record.opened_lanes ^= static_cast<std::uint8_t>(1u << lane);
   }
   for (; change_leaves != 0; change_leaves &= change_leaves - 1) {
     const auto bit = static_cast<std::uint32_t>(std::countr_zero(change_leaves)), lane = bit % WIDE_WIDTH;
-    const std::uint32_t before = records_[index].leaf_lanes & ((1u << bit) - 1);
+    const std::uint32_t before = record.leaf_lanes & ((1u << bit) - 1);
     if ((leaf_lanes >> bit & 1u) == 0) {
-      std::uint32_t& link = link_after(before, leaves_, records_[index].first_leaf);
+      std::uint32_t& link = link_after(before, leaves_, record.first_leaf);
       leaf_queue_.drop(std::exchange(link, leaves_[link].next));
     } else {
       const std::uint32_t added = add_leaf(work, slot_a_of(lane), pair_of(lane), bit >= WIDE_WIDTH);
-      leaves_[added].next = std::exchange(link_after(before, leaves_, records_[index].first_leaf), added);
+      leaves_[added].next = std::exchange(link_after(before, leaves_, record.first_leaf), added);
     }
-    records_[index].leaf_lanes ^= static_cast<std::uint16_t>(1u << bit);
+    record.leaf_lanes ^= static_cast<std::uint16_t>(1u << bit);
   }
 }
 
@@ -186,7 +186,7 @@ void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b) {
 std::size_t TraversalFront::collect_due_tests(const MotionForecast& motion, Scratch& scratch) {
   std::vector<std::uint32_t>& due = scratch.batch;
   test_queue_.collect(motion, due, scratch.queue);
-  requested_.reserve(std::bit_ceil(test_queue_.size()));  // None is allocated later.
+  requested_.reserve(records_.capacity());  // As of the records: none is allocated later.
   for (const std::uint32_t index : due) records_[index].state = State::REQUESTED;
   requested_.insert(requested_.begin(), due.begin(), due.end());
   return due.size();
@@ -209,8 +209,7 @@ void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, con
     }
     requested_.erase(requested_.begin(), requested_.begin() + static_cast<std::ptrdiff_t>(taken));
     most -= batch.size();
-    // No batch is larger, so none allocates later.
-    scratch.tests.reserve(std::bit_ceil(records_.size()));
+    scratch.tests.reserve(batch.capacity());  // As of the batch: none is allocated later.
     test_batch(work.a, work.b, work.query, work.forecast, pairs_, batch, scratch.tests);
     for (const WideKeptTest& test : scratch.tests) {
       // Not where an earlier test of the batch dropped the pair, or gave its index to a new one.
