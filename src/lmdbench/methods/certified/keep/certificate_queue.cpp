@@ -41,6 +41,11 @@ void CertificateQueue::clear() {
 
 std::uint32_t CertificateQueue::add() {
   if (free_.empty()) {
+    if (frames_.size() == frames_.capacity()) {
+      // By an eighth: doubled they would be empty by half in a pile.
+      const std::size_t room = frames_.size() + frames_.size() / 8 + 16;
+      for (std::vector<std::uint8_t>* of_all : {&frames_, &epochs_, &classes_}) of_all->reserve(room);
+    }
     frames_.push_back(NO_FRAME);
     epochs_.push_back(NO_EPOCH);
     classes_.push_back(0);
