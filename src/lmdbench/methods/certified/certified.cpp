@@ -8,10 +8,11 @@
 #include <lmdbench/methods/certified/build/signed_hierarchy.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/decide/filter.h>
-
-#include <boost/lockfree/stack.hpp>
+#include <lmdbench/methods/certified/decide/touching_pairs.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -83,28 +84,38 @@ void fetch_vertices(const Surface& surface, const FeatureId& feature) {
   }
 }
 
-/// Memory of a search from scratch, handed on from search to search: a servo thread finds it grown,
-/// and a pile of a thousand pairs needs no more of it than there are threads.
+/// Memory of a search, of which the next one needs nothing.
+struct SearchScratch {
+  WideScratch wide;
+  TraversalFront::Scratch front;
+  ContactSet contacts;
+  TouchingPairs touching;
+  std::vector<WidePair> touching_pairs;
+  std::vector<std::uint32_t> touching_leaves;  ///< Of touching_pairs, in the front.
+};
+
+/// Handed on from search to search: a servo thread finds it grown, and a pile of a thousand pairs
+/// needs no more of it than there are threads.
 class BorrowedScratch {
  public:
   BorrowedScratch() {
-    if (!spare().pop(scratch_)) scratch_ = new WideScratch;
+    for (std::atomic<SearchScratch*>& spare : spares_)
+      if (spare.load() != nullptr && (scratch_ = spare.exchange(nullptr)) != nullptr) return;
+    scratch_ = new SearchScratch;
   }
   ~BorrowedScratch() {
-    if (!spare().bounded_push(scratch_)) delete scratch_;
+    for (std::atomic<SearchScratch*>& spare : spares_)
+      if (SearchScratch* none = nullptr; spare.compare_exchange_strong(none, scratch_)) return;
+    delete scratch_;
   }
   BorrowedScratch(const BorrowedScratch&) = delete;
   BorrowedScratch& operator=(const BorrowedScratch&) = delete;
-  WideScratch& operator*() const { return *scratch_; }
+  SearchScratch& operator*() const { return *scratch_; }
 
  private:
-  using Spare = boost::lockfree::stack<WideScratch*, boost::lockfree::capacity<64>>;
-  static Spare& spare() {
-    static Spare instance;
-    return instance;
-  }
+  static inline std::array<std::atomic<SearchScratch*>, 64> spares_{};
 
-  WideScratch* scratch_ = nullptr;
+  SearchScratch* scratch_ = nullptr;
 };
 
 /// For the contract of the filter.
@@ -125,8 +136,8 @@ struct Certified::Frame {
   const WideQuery& query;
   double search_distance;  ///< The larger of reach and touch [m].
   TouchingPairs::Frame touching;
-  ContactSet& contacts;
   WorkCounters& counters;
+  SearchScratch& scratch;
   const SignedPair* signs = nullptr;  ///< Where critical pairs are looked for.
   WideCounters work{};
 
@@ -137,10 +148,10 @@ struct Certified::Frame {
     if (signs != nullptr) {
       // An index has no certificate: pairs that bounds cannot reject are asked in every frame.
       if (filter(on_moving, on_fixed, lever_arm).verdict == PairVerdict::NO_LMD) {
-        signs->append(on_moving, on_fixed, contacts);
+        signs->append(on_moving, on_fixed, scratch.contacts);
       } else {
         ++counters[Counter::DECISIONS];
-        decide_critical(pair, *signs, on_moving, on_fixed, contacts);
+        decide_critical(pair, *signs, on_moving, on_fixed, scratch.contacts);
       }
       return {};
     }
@@ -152,7 +163,7 @@ struct Certified::Frame {
       return answer.certificate;
     }
     ++counters[Counter::DECISIONS];
-    decide(pair, on_moving, on_fixed, contacts);
+    decide(pair, on_moving, on_fixed, scratch.contacts);
     return {};
   }
 };
@@ -212,8 +223,7 @@ void Certified::follow_deformations() {
 }
 
 void Certified::enumerate_from_scratch(Frame& frame) {
-  const BorrowedScratch borrowed;
-  WideScratch& scratch = *borrowed;
+  WideScratch& scratch = frame.scratch.wide;
   WideCounters work;
   find_wide_pairs(frame.moving, frame.fixed, frame.query, kernel_, scratch, work);
   add_traversal<Counter>(frame.counters, work);
@@ -228,13 +238,14 @@ void Certified::enumerate_from_scratch(Frame& frame) {
     fetch(k + FETCH_DISTANCE, fetch_vertices);
     frame.decide_pair(scratch.lmd_pairs[k], 1.0);
   }
-  touching_.decide(frame.touching, scratch.touch_pairs);
+  frame.scratch.touching.decide(frame.touching, scratch.touch_pairs);
 }
 
 /// Brings what is kept to a frame.
 /// @return whether it is complete, so that nothing need be searched from scratch
 bool Certified::advance_kept(Frame& frame) {
   TraversalFront& front = fixed_.front;
+  TraversalFront::Scratch& scratch = frame.scratch.front;
   if (frame.search_distance != fixed_.search_distance) front.clear();
   front.follow(frame.moving, fixed_.seen_moving, frame.fixed, fixed_.seen_fixed, motion_);
   fixed_.search_distance = frame.search_distance;
@@ -242,38 +253,40 @@ bool Certified::advance_kept(Frame& frame) {
   fixed_.seen_fixed = frame.fixed.changes.now;
   const bool was_complete = front.is_complete();
   if (front.empty()) front.start(frame.moving, frame.fixed);
-  const std::size_t due = front.collect_due_tests(motion_), kept = front.test_count();
+  const std::size_t due = front.collect_due_tests(motion_, scratch), kept = front.test_count();
   const std::size_t few = std::max(FEW_TESTS, CoherencePolicy::most_of(kept));
   const bool goes_on = was_complete && due <= few;
   const std::size_t added = std::max(FEW_TESTS, std::max(fixed_.tests_from_scratch, kept) / SHARE_OF_TESTS);
   front.advance(frame.moving, frame.fixed, frame.query, motion_, frame.pair.moving.X_WS,
-                frame.search_distance, goes_on ? few : added + (due <= few ? due : 0), frame.work);
+                frame.search_distance, goes_on ? few : added + (due <= few ? due : 0), frame.work, scratch);
   fixed_.policy.note(goes_on ? frame.work.node_tests : due, front.test_count());
-  front.collect_due(motion_);
+  front.collect_due(motion_, scratch);
   if (front.is_complete()) return true;
-  front.postpone_due(motion_);
+  front.postpone_due(motion_, scratch);
   return false;
 }
 
 void Certified::decide_kept(Frame& frame) {
   TraversalFront& front = fixed_.front;
+  SearchScratch& scratch = frame.scratch;
   frame.touching.keeps = true;
   front.for_each_due(
-      frame.moving, motion_, frame.search_distance,
+      frame.moving, motion_, frame.search_distance, scratch.front,
       [&](const WidePair& pair, bool, double lever_arm) { return frame.decide_pair(pair, lever_arm); },
       [](const WidePair&, bool touches) { return !touches; });
-  touching_pairs_.clear();
-  touching_leaves_.clear();
-  front.for_each_due_touching([&](std::uint32_t leaf, const WidePair& pair) {
-    touching_pairs_.push_back(pair);
-    touching_leaves_.push_back(leaf);
+  scratch.touching_pairs.clear();
+  scratch.touching_leaves.clear();
+  front.for_each_due_touching(scratch.front, [&](std::uint32_t leaf, const WidePair& pair) {
+    scratch.touching_pairs.push_back(pair);
+    scratch.touching_leaves.push_back(leaf);
   });
-  const auto certificates = touching_.decide(frame.touching, touching_pairs_);
+  const auto certificates = scratch.touching.decide(frame.touching, scratch.touching_pairs);
   for (std::size_t k = 0; k < certificates.size(); ++k) {
+    const std::uint32_t leaf = scratch.touching_leaves[k];
     Certificate certificate = certificates[k];
     if (certificate.slack > 0.0)
-      certificate.lever_arm = front.lever_arm_of(frame.moving, touching_leaves_[k], frame.search_distance);
-    front.plan_leaf(frame.moving, motion_, touching_leaves_[k], certificate);
+      certificate.lever_arm = front.lever_arm_of(frame.moving, leaf, frame.search_distance);
+    front.plan_leaf(frame.moving, motion_, leaf, certificate);
   }
 }
 
@@ -306,7 +319,9 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const bool keep = follow_motion(transform, touch, search_distance);
   const PairFilter filter{pair, reach, touch, FILTER_MARGIN, RELATIVE_TINY * coordinates};
   const WideQuery query(hierarchy_moving_, fixed_.hierarchy, transform, reach, touch);
-  contacts_.clear();
+  const BorrowedScratch borrowed;
+  SearchScratch& scratch = *borrowed;
+  scratch.contacts.clear();
   std::optional<SignedPair> signs;
   if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *fixed_.signs);
   const bool keeps = keep && query.possible && fixed_.policy.keep();
@@ -317,9 +332,9 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
               filter,
               query,
               search_distance,
-              {pair, 0, touch, false, contacts_, intersections_, crossing_pairs_},
-              contacts_,
+              {pair, 0, touch, false, scratch.contacts, intersections_, crossing_pairs_},
               counters,
+              scratch,
               signs ? &*signs : nullptr};
   if (keeps && advance_kept(frame))
     decide_kept(frame);
@@ -328,13 +343,14 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   add_traversal<Counter>(counters, frame.work);
   counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
   counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;
-  join(pair);
+  join(pair, scratch.contacts);
 }
 
 void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
-  find(X_WM, counters,
-       [&](const ShapePair& pair) { join_contacts(pair, 0, contacts_, intersections_, lmds); });
+  find(X_WM, counters, [&](const ShapePair& pair, ContactSet& contacts) {
+    join_contacts(pair, 0, contacts, intersections_, lmds);
+  });
   append_contacts(scene_, intersections_, lmds);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
   LMDBENCH_ENSURES(is_well_formed(lmds, scene_), "a contact whose point or name is of another place");
@@ -347,8 +363,8 @@ void Certified::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCount
     return;
   }
   critical.clear();
-  find(X_WM, counters, [&](const ShapePair& pair) {
-    join_critical(pair, *signs_moving_, *fixed_.signs, 0, contacts_, intersections_, critical);
+  find(X_WM, counters, [&](const ShapePair& pair, ContactSet& contacts) {
+    join_critical(pair, *signs_moving_, *fixed_.signs, 0, contacts, intersections_, critical);
   });
   finish_critical(scene_, intersections_, critical);
 }

@@ -7,7 +7,6 @@
 #include <lmdbench/decision/intersections.h>
 #include <lmdbench/lmd/method.h>
 #include <lmdbench/lmd/scene.h>
-#include <lmdbench/methods/certified/decide/touching_pairs.h>
 #include <lmdbench/methods/certified/keep/coherence_policy.h>
 #include <lmdbench/methods/certified/keep/traversal_front.h>
 #include <lmdbench/methods/certified/options.h>
@@ -96,7 +95,7 @@ class Certified : public Method {
 
   /// @param with_critical  looks for critical pairs
   Certified(Scene of_pair, const CertifiedOptions& options, WideKernel kernel, bool with_critical);
-  /// Steps 1 and 2; calls join(the two at the pose).
+  /// Steps 1 and 2; calls join(the two at the pose, their contacts).
   template <class Join>
   void find(const Pose& X_WM, WorkCounters& counters, Join&& join);
 
@@ -122,13 +121,9 @@ class Certified : public Method {
   double touch_ = 0.0;            ///< Of the last frame [m].
   std::uint32_t seen_frame_ = 0;  ///< Deformation of the moving mesh before the forecast began.
 
-  ContactSet contacts_;
   std::vector<Intersection> intersections_;
   std::vector<CrossingPair> crossing_pairs_;
-  TouchingPairs touching_;
-  std::vector<WidePair> touching_pairs_;
-  std::vector<std::uint32_t> touching_leaves_;  ///< Of touching_pairs_, in the front.
-  std::unique_ptr<Certified> critical_;         ///< Of find_critical; made when first asked for.
+  std::unique_ptr<Certified> critical_;  ///< Of find_critical; made when first asked for.
 };
 
 }  // namespace lmdbench

@@ -139,11 +139,12 @@ class CertificateQueueTest : public ::testing::Test {
     X.translation.x() = x;
     forecast.advance(X, 0.0);
     std::vector<std::uint32_t> due;
-    queue.collect(forecast, due);
+    queue.collect(forecast, due, scratch);
     return due;
   }
   MotionForecast forecast;
   CertificateQueue queue;
+  CertificateQueue::Scratch scratch;
 };
 
 TEST_F(CertificateQueueTest, GoOffWhenTheirFramesAreOver) {

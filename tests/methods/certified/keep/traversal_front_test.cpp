@@ -42,8 +42,8 @@ class TraversalFrontTest : public ::testing::Test {
     } else {
       motion_.advance(X_WH, ROUNDING);
     }
-    due_ = front_.collect_due_tests(motion_);
-    front_.advance(moving(), fixed(), query, motion_, transform_, CUTOFF, due_ + most_, counters_);
+    due_ = front_.collect_due_tests(motion_, scratch_);
+    front_.advance(moving(), fixed(), query, motion_, transform_, CUTOFF, due_ + most_, counters_, scratch_);
   }
   /// The pairs that are due; each gets this certificate.
   std::set<Key> due(const Certificate& certificate) {
@@ -53,8 +53,9 @@ class TraversalFrontTest : public ::testing::Test {
       EXPECT_TRUE(keys.emplace(pair.a.feature_id(), pair.b.feature_id(), touches).second) << "due twice";
       return certificate;
     };
-    front_.collect_due(motion_);
-    front_.for_each_due(moving(), motion_, CUTOFF, decide, [](const WidePair&, bool) { return true; });
+    front_.collect_due(motion_, scratch_);
+    front_.for_each_due(moving(), motion_, CUTOFF, scratch_, decide,
+                        [](const WidePair&, bool) { return true; });
     return keys;
   }
   std::set<Key> from_scratch() const {
@@ -73,6 +74,7 @@ class TraversalFrontTest : public ::testing::Test {
   Scene scene_;
   MotionForecast motion_;
   TraversalFront front_;
+  TraversalFront::Scratch scratch_;
   RigidTransform transform_;
   std::size_t most_ = 1'000'000, due_ = 0;  ///< Tests a frame: other than due ones, and due ones.
   WideCounters counters_;
@@ -119,8 +121,8 @@ TEST_F(TraversalFrontTest, MadeOverSeveralFramesItHoldsEveryPairAsSoonAsItIsComp
       const std::uint64_t before = counters_.node_tests;
       go_to(pose);
       EXPECT_LE(counters_.node_tests - before, most_ + due_);
-      front_.collect_due(motion_);
-      front_.postpone_due(motion_);
+      front_.collect_due(motion_, scratch_);
+      front_.postpone_due(motion_, scratch_);
     }
     EXPECT_GT(frames, 10);
     ASSERT_LT(frames, 1000);

@@ -41,6 +41,11 @@ void CertificateQueue::clear() {
 
 std::uint32_t CertificateQueue::add() {
   if (free_.empty()) {
+    if (frames_.size() == frames_.capacity()) {
+      // By an eighth: doubled they would be empty by half in a pile.
+      const std::size_t room = frames_.size() + frames_.size() / 8 + 16;
+      for (std::vector<std::uint8_t>* of_all : {&frames_, &epochs_, &classes_}) of_all->reserve(room);
+    }
     frames_.push_back(NO_FRAME);
     epochs_.push_back(NO_EPOCH);
     classes_.push_back(0);
@@ -74,19 +79,20 @@ void CertificateQueue::plan(std::uint32_t index, double frames, double deviation
   least_class_[epoch] = std::min(least_class_[epoch], budget_class);
 }
 
-void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due) {
+void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due,
+                               Scratch& scratch) {
   using Eight = std::uint64_t;
   const std::size_t count = frames_.size();
   // The last eight may read beyond the end. Memory grows with the plans alone.
-  if (is_due_.capacity() < count + sizeof(Eight)) is_due_.reserve(frames_.capacity() + sizeof(Eight));
-  is_due_.assign(count + sizeof(Eight), 0);
+  scratch.is_due.reserve(frames_.capacity() + sizeof(Eight));
+  scratch.is_due.assign(count + sizeof(Eight), 0);
   due.reserve(frames_.capacity());
-  others_.reserve(frames_.capacity());
+  scratch.others.reserve(frames_.capacity());
   // Plain loops over local pointers, which the compiler vectorises.
   std::uint8_t* const frames = frames_.data();
   std::uint8_t* const epochs = epochs_.data();
   const std::uint8_t* const classes = classes_.data();
-  std::uint8_t* const is_due = is_due_.data();
+  std::uint8_t* const is_due = scratch.is_due.data();
   const auto now = static_cast<std::uint8_t>(forecast.frame() % FRAMES);
   for (std::size_t i = 0; i < count; ++i) is_due[i] = frames[i] == now;
   for (std::size_t epoch = 0; epoch < MotionForecast::EPOCHS; ++epoch) {
@@ -100,18 +106,18 @@ void CertificateQueue::collect(const MotionForecast& forecast, std::vector<std::
   }
   // First the pairs without a budget, as crossing pairs: together they are predicted well.
   due.clear();
-  others_.clear();
+  scratch.others.clear();
   for (std::size_t begin = 0; begin < count; begin += sizeof(Eight)) {
     Eight eight = 0;
     std::memcpy(&eight, is_due + begin, sizeof(eight));
     for (; eight != 0; eight &= eight - 1) {
       const std::size_t index = begin + static_cast<std::size_t>(std::countr_zero(eight)) / 8;
-      (epochs[index] == NO_EPOCH ? due : others_).push_back(static_cast<std::uint32_t>(index));
+      (epochs[index] == NO_EPOCH ? due : scratch.others).push_back(static_cast<std::uint32_t>(index));
       frames[index] = NO_FRAME;
       epochs[index] = NO_EPOCH;
     }
   }
-  due.insert(due.end(), others_.begin(), others_.end());
+  due.insert(due.end(), scratch.others.begin(), scratch.others.end());
 }
 
 }  // namespace lmdbench

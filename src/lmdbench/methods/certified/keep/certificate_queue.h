@@ -36,8 +36,13 @@ class CertificateQueue {
   /// Due in the next frame, whatever the motion.
   void plan_next(std::uint32_t index, const MotionForecast& forecast) { end_at(index, forecast.frame() + 1); }
 
+  /// Memory of `collect` alone: queues lend it to each other.
+  struct Scratch {
+    std::vector<std::uint8_t> is_due;
+    std::vector<std::uint32_t> others;
+  };
   /// Finds all that are due in the forecast's frame and ends their plans. To be called every frame.
-  void collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due);
+  void collect(const MotionForecast& forecast, std::vector<std::uint32_t>& due, Scratch& scratch);
 
  private:
   /// More than the longest plan, and a power of two.
@@ -59,8 +64,6 @@ class CertificateQueue {
   /// By epoch: lower bound of its budgets' classes.
   std::array<std::uint32_t, MotionForecast::EPOCHS> least_class_;
   std::vector<std::uint32_t> free_;
-  std::vector<std::uint8_t> is_due_;   ///< Scratch.
-  std::vector<std::uint32_t> others_;  ///< Scratch.
 };
 
 }  // namespace lmdbench

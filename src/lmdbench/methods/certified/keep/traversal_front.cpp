@@ -16,6 +16,15 @@ namespace {
 /// Losses are at least this, so that nothing is divided by zero [m].
 constexpr double LEAST_LOSS = 1e-30;
 
+/// What links to the entry of a list that has an entry before it for each of these bits, or ends
+/// the list there.
+template <class Entry>
+std::uint32_t& link_after(std::uint32_t before, SteadyArray<Entry>& entries, std::uint32_t& first) {
+  std::uint32_t* link = &first;
+  for (; before != 0; before &= before - 1) link = &entries[*link].next;
+  return *link;
+}
+
 }  // namespace
 
 void TraversalFront::clear() {
@@ -35,7 +44,6 @@ std::uint32_t TraversalFront::add_record(const WideHierarchy& a, const WideHiera
     pairs_[index] = pair;
     records_[index] = Record{};
   }
-  records_[index].in_use = records_[index].is_requested = true;
   requested_.push_back(index);
   return index;
 }
@@ -44,7 +52,7 @@ std::uint32_t TraversalFront::add_leaf(const Work& work, std::uint32_t slot_a, c
                                        bool touches) {
   const std::uint32_t index = leaf_queue_.add();
   if (index == leaves_.size()) leaves_.push_back({});
-  leaves_[index] = {pair, slot_a, touches};
+  leaves_[index] = {pair, slot_a, NONE, touches};
   leaf_queue_.plan_now(index, work.motion);
   return index;
 }
@@ -79,28 +87,21 @@ void TraversalFront::plan_leaf(const WideHierarchy& a, const MotionForecast& mot
   leaf_queue_.plan(index, frames, deviation_budget, motion);
 }
 
-void TraversalFront::drop_below(const Record& record) {
-  for (std::uint32_t left = record.opened_lanes; left != 0; left &= left - 1)
-    dropping_.push_back(record.below[static_cast<std::size_t>(std::countr_zero(left))]);
-  for (std::uint32_t left = record.lmd_lanes; left != 0; left &= left - 1)
-    leaf_queue_.drop(record.below[static_cast<std::size_t>(std::countr_zero(left))]);
-  for (std::uint32_t left = record.touch_lanes; left != 0; left &= left - 1)
-    leaf_queue_.drop(record.touching[static_cast<std::size_t>(std::countr_zero(left))]);
+void TraversalFront::drop_leaves(const Record& record) {
+  for (std::uint32_t leaf = record.first_leaf; leaf != NONE; leaf = leaves_[leaf].next)
+    leaf_queue_.drop(leaf);
 }
 
-void TraversalFront::finish_dropping() {
-  while (!dropping_.empty()) {
-    const std::uint32_t index = dropping_.back();
-    dropping_.pop_back();
-    drop_below(records_[index]);
-    records_[index].in_use = false;
-    test_queue_.drop(index);
+void TraversalFront::drop_records(std::uint32_t first) {
+  while (first != NONE) {
+    Record& record = records_[first];
+    drop_leaves(record);
+    record.state = State::UNUSED;
+    test_queue_.drop(first);
+    // Those below it come before those after it.
+    link_after(record.opened_lanes, records_, record.first_below) = record.next;
+    first = record.first_below;
   }
-}
-
-void TraversalFront::drop_record(std::uint32_t record) {
-  dropping_.push_back(record);
-  finish_dropping();
 }
 
 void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const WideHierarchy& b,
@@ -108,43 +109,40 @@ void TraversalFront::follow(const WideHierarchy& a, std::uint32_t seen_a, const 
   if (a.changes.now == seen_a && b.changes.now == seen_b) return;
   for (std::uint32_t i = 0; i < test_queue_.size(); ++i) {
     Record& record = records_[i];
-    if (!record.in_use) continue;
-    WideKeptPair& pair = pairs_[i];
+    if (record.state == State::UNUSED) continue;
+    const WideKeptPair& pair = pairs_[i];
     const WideHierarchy &opened = pair.open_a ? a : b, &other = pair.open_a ? b : a;
     const std::uint32_t seen_opened = pair.open_a ? seen_a : seen_b,
                         seen_other = pair.open_a ? seen_b : seen_a;
-    const std::uint32_t slot = pair.open_a ? pair.slot_b : pair.slot_a;
     if (!opened.changes.bounds_after(pair.node, seen_opened) &&
-        !other.changes.bounds_after(slot / WIDE_WIDTH, seen_other))
+        !other.changes.bounds_after(pair.other_slot() / WIDE_WIDTH, seen_other))
       continue;
     // Where the other child is a new one, the record that opened its node drops this pair.
     if (opened.changes.lanes_after(pair.node, seen_opened)) {
-      drop_below(record);
-      finish_dropping();
-      record.opened_lanes = record.lmd_lanes = record.touch_lanes = 0;
+      drop_leaves(record);
+      drop_records(record.first_below);
+      record.first_below = record.first_leaf = NONE;
+      record.opened_lanes = record.leaf_lanes = 0;
     }
-    pair.child = WideChild(other.nodes[slot / WIDE_WIDTH], slot % WIDE_WIDTH);
     test_queue_.plan_now(i, motion);
-    for (std::uint32_t left = record.lmd_lanes; left != 0; left &= left - 1)
-      leaf_queue_.plan_now(record.below[static_cast<std::size_t>(std::countr_zero(left))], motion);
-    for (std::uint32_t left = record.touch_lanes; left != 0; left &= left - 1)
-      leaf_queue_.plan_now(record.touching[static_cast<std::size_t>(std::countr_zero(left))], motion);
+    for (std::uint32_t leaf = record.first_leaf; leaf != NONE; leaf = leaves_[leaf].next)
+      leaf_queue_.plan_now(leaf, motion);
   }
 }
 
 void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
-  // Records may move when one is added (SteadyArray): by index, no reference is kept.
   const std::uint32_t index = test.pair;
   test_queue_.plan(index, static_cast<double>(test.frames), static_cast<double>(test.deviation_budget),
                    work.motion);
   ++work.counters.node_tests;
   work.counters.node_pairs += LANE_LISTS[test.used].count;
 
-  if (test.opened == records_[index].opened_lanes && test.lmd == records_[index].lmd_lanes &&
-      test.touch == records_[index].touch_lanes)
-    return;
-  const Record before = records_[index];
-  const WideKeptPair pair = pairs_[index];
+  const std::uint32_t leaf_lanes = test.lmd | test.touch << WIDE_WIDTH;
+  Record& record = records_[index];
+  std::uint32_t change_opened = test.opened ^ record.opened_lanes,
+                change_leaves = leaf_lanes ^ record.leaf_lanes;
+  if ((change_opened | change_leaves) == 0) return;
+  const WideKeptPair& pair = pairs_[index];
   const std::uint32_t first_slot = pair.node * WIDE_WIDTH;
   const auto slot_a_of = [&](std::uint32_t lane) { return pair.open_a ? first_slot + lane : pair.slot_a; };
   const auto slot_b_of = [&](std::uint32_t lane) { return pair.open_a ? pair.slot_b : first_slot + lane; };
@@ -154,34 +152,30 @@ void TraversalFront::apply(const Work& work, const WideKeptTest& test) {
   const auto pair_of = [&](std::uint32_t lane) {
     return WidePair{ref(work.a, slot_a_of(lane)), ref(work.b, slot_b_of(lane))};
   };
-  for (std::uint32_t change = test.opened ^ before.opened_lanes; change != 0; change &= change - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
+  for (; change_opened != 0; change_opened &= change_opened - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change_opened));
+    const std::uint32_t before = std::uint32_t{record.opened_lanes} >> (lane + 1);
     if ((test.opened >> lane & 1u) == 0) {
-      drop_record(before.below[lane]);
+      std::uint32_t& link = link_after(before, records_, record.first_below);
+      drop_records(std::exchange(link, std::exchange(records_[link].next, NONE)));
     } else {
       const std::uint32_t added = add_record(work.a, work.b, slot_a_of(lane), slot_b_of(lane));
-      records_[index].below[lane] = added;
+      records_[added].next = std::exchange(link_after(before, records_, record.first_below), added);
     }
+    record.opened_lanes ^= static_cast<std::uint8_t>(1u << lane);
   }
-  for (std::uint32_t change = test.lmd ^ before.lmd_lanes; change != 0; change &= change - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
-    if ((test.lmd >> lane & 1u) == 0) {
-      leaf_queue_.drop(before.below[lane]);
+  for (; change_leaves != 0; change_leaves &= change_leaves - 1) {
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(change_leaves)), lane = bit % WIDE_WIDTH;
+    const std::uint32_t before = record.leaf_lanes & ((1u << bit) - 1);
+    if ((leaf_lanes >> bit & 1u) == 0) {
+      std::uint32_t& link = link_after(before, leaves_, record.first_leaf);
+      leaf_queue_.drop(std::exchange(link, leaves_[link].next));
     } else {
-      records_[index].below[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), false);
+      const std::uint32_t added = add_leaf(work, slot_a_of(lane), pair_of(lane), bit >= WIDE_WIDTH);
+      leaves_[added].next = std::exchange(link_after(before, leaves_, record.first_leaf), added);
     }
+    record.leaf_lanes ^= static_cast<std::uint16_t>(1u << bit);
   }
-  for (std::uint32_t change = test.touch ^ before.touch_lanes; change != 0; change &= change - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(change));
-    if ((test.touch >> lane & 1u) == 0) {
-      leaf_queue_.drop(before.touching[lane]);
-    } else {
-      records_[index].touching[lane] = add_leaf(work, slot_a_of(lane), pair_of(lane), true);
-    }
-  }
-  records_[index].opened_lanes = test.opened;
-  records_[index].lmd_lanes = test.lmd;
-  records_[index].touch_lanes = test.touch;
 }
 
 void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b) {
@@ -189,36 +183,37 @@ void TraversalFront::start(const WideHierarchy& a, const WideHierarchy& b) {
   add_record(a, b, 0, 0);
 }
 
-std::size_t TraversalFront::collect_due_tests(const MotionForecast& motion) {
-  test_queue_.collect(motion, batch_);
-  requested_.reserve(batch_.capacity());  // As of the queue: none is allocated later.
-  for (const std::uint32_t index : batch_) records_[index].is_requested = true;
-  requested_.insert(requested_.begin(), batch_.begin(), batch_.end());
-  return batch_.size();
+std::size_t TraversalFront::collect_due_tests(const MotionForecast& motion, Scratch& scratch) {
+  std::vector<std::uint32_t>& due = scratch.batch;
+  test_queue_.collect(motion, due, scratch.queue);
+  requested_.reserve(records_.capacity());  // As of the records: none is allocated later.
+  for (const std::uint32_t index : due) records_[index].state = State::REQUESTED;
+  requested_.insert(requested_.begin(), due.begin(), due.end());
+  return due.size();
 }
 
 void TraversalFront::advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                              const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-                             std::size_t most, WideCounters& counters) {
+                             std::size_t most, WideCounters& counters, Scratch& scratch) {
+  std::vector<std::uint32_t>& batch = scratch.batch;
   const Work work{a, b, query, motion, WideForecast(motion, X_BA, search_distance), counters};
   while (!requested_.empty() && most > 0) {
     // An index that was dropped and reused while it waited is in the list twice.
-    batch_.clear();
+    batch.clear();
     std::size_t taken = 0;
-    while (taken < requested_.size() && batch_.size() < most) {
+    while (taken < requested_.size() && batch.size() < most) {
       const std::uint32_t index = requested_[taken++];
-      if (records_[index].in_use && std::exchange(records_[index].is_requested, false))
-        batch_.push_back(index);
+      if (records_[index].state != State::REQUESTED) continue;
+      records_[index].state = State::TESTED;
+      batch.push_back(index);
     }
     requested_.erase(requested_.begin(), requested_.begin() + static_cast<std::ptrdiff_t>(taken));
-    most -= batch_.size();
-    // No batch is larger, so none allocates later.
-    tests_.reserve(std::bit_ceil(records_.size()));
-    test_batch(work.a, work.b, work.query, work.forecast, pairs_, batch_, tests_);
-    for (const WideKeptTest& test : tests_) {
+    most -= batch.size();
+    scratch.tests.reserve(batch.capacity());  // As of the batch: none is allocated later.
+    test_batch(work.a, work.b, work.query, work.forecast, pairs_, batch, scratch.tests);
+    for (const WideKeptTest& test : scratch.tests) {
       // Not where an earlier test of the batch dropped the pair, or gave its index to a new one.
-      const Record& record = records_[test.pair];
-      if (record.in_use && !record.is_requested) apply(work, test);
+      if (records_[test.pair].state == State::TESTED) apply(work, test);
     }
   }
 }

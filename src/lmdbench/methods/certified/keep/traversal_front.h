@@ -11,7 +11,6 @@
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -30,6 +29,15 @@ namespace lmdbench {
 /// opened.
 class TraversalFront {
  public:
+  /// Memory of a frame's search: what it holds means nothing to the next one, and fronts lend it to
+  /// each other.
+  struct Scratch {
+    CertificateQueue::Scratch queue;
+    std::vector<std::uint32_t> due;  ///< Pairs: from `collect_due` on.
+    std::vector<std::uint32_t> batch;
+    std::vector<WideKeptTest> tests;
+  };
+
   void clear();
   bool empty() const { return test_queue_.size() == 0; }
   bool is_complete() const { return !empty() && requested_.empty(); }
@@ -43,25 +51,27 @@ class TraversalFront {
               const MotionForecast& motion);
 
   /// Asks for the tests that are due, once a frame. @return how many there are
-  std::size_t collect_due_tests(const MotionForecast& motion);
+  std::size_t collect_due_tests(const MotionForecast& motion, Scratch& scratch);
   /// Makes the tests that are asked for; those of this frame's collect_due_tests come first.
   /// @param most  tests that are made
   void advance(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,
                const MotionForecast& motion, const RigidTransform& X_BA, double search_distance,
-               std::size_t most, WideCounters& counters);
+               std::size_t most, WideCounters& counters, Scratch& scratch);
 
   /// Finds the pairs that are due, once a frame.
-  void collect_due(const MotionForecast& motion) { leaf_queue_.collect(motion, due_); }
+  void collect_due(const MotionForecast& motion, Scratch& scratch) {
+    leaf_queue_.collect(motion, scratch.due, scratch.queue);
+  }
   /// In place of deciding them.
-  void postpone_due(const MotionForecast& motion) {
-    for (const std::uint32_t i : due_) leaf_queue_.plan_next(i, motion);
+  void postpone_due(const MotionForecast& motion, const Scratch& scratch) {
+    for (const std::uint32_t i : scratch.due) leaf_queue_.plan_next(i, motion);
   }
   /// Calls decide(pair, touches, lever_arm), which returns its Certificate, for every pair that is
   /// due and chosen(pair, touches), in one call a frame. `touches`: faces that may touch.
   template <class Decide, class Chosen>
   void for_each_due(const WideHierarchy& a, const MotionForecast& motion, double search_distance,
-                    Decide&& decide, Chosen&& chosen) {
-    for (const std::uint32_t i : due_) {
+                    const Scratch& scratch, Decide&& decide, Chosen&& chosen) {
+    for (const std::uint32_t i : scratch.due) {
       const Leaf& leaf = leaves_[i];
       if (!chosen(leaf.pair, leaf.touches)) continue;
       plan_leaf(a, motion, i, decide(leaf.pair, leaf.touches, lever_arm_of(a, i, search_distance)));
@@ -71,8 +81,8 @@ class TraversalFront {
   /// Calls visit(leaf, pair) for every pair of faces that may touch and is due. Each must be given
   /// to plan_leaf in this frame.
   template <class Visit>
-  void for_each_due_touching(Visit&& visit) const {
-    for (const std::uint32_t i : due_)
+  void for_each_due_touching(const Scratch& scratch, Visit&& visit) const {
+    for (const std::uint32_t i : scratch.due)
       if (leaves_[i].touches) visit(i, leaves_[i].pair);
   }
   /// Keeps the decision about a pair that was due.
@@ -88,19 +98,22 @@ class TraversalFront {
   std::size_t pair_count() const { return leaf_queue_.count(); }
 
  private:
-  /// What the test of a pair let through.
+  static constexpr std::uint32_t NONE = std::numeric_limits<std::uint32_t>::max();
+  enum class State : std::uint8_t { UNUSED, REQUESTED, TESTED };
+  /// What the test of a pair let through, in lists: a pile keeps thousands. They have the order of
+  /// the lanes, so that what is dropped or added is always done in the same order.
   struct Record {
-    bool in_use = false;
-    bool is_requested = false;       ///< Its test is to be made.
-    std::uint32_t opened_lanes = 0;  ///< Lanes that have a record in `below`.
-    std::uint32_t lmd_lanes = 0;     ///< Lanes that have a leaf in `below`.
-    std::uint32_t touch_lanes = 0;   ///< Lanes that have a leaf in `touching`.
-    std::array<std::uint32_t, WIDE_WIDTH> below{};
-    std::array<std::uint32_t, WIDE_WIDTH> touching{};
+    std::uint32_t first_below = NONE;  ///< Record of the last opened lane.
+    std::uint32_t next = NONE;         ///< Of the list that it is in.
+    std::uint32_t first_leaf = NONE;   ///< Of the first bit of `leaf_lanes`.
+    std::uint16_t leaf_lanes = 0;      ///< Lanes that have a leaf; << WIDE_WIDTH: that touches.
+    std::uint8_t opened_lanes = 0;     ///< Lanes that have a record.
+    State state = State::REQUESTED;
   };
   struct Leaf {
     WidePair pair;
     std::uint32_t slot_a;
+    std::uint32_t next;
     bool touches;
   };
   struct Work {
@@ -115,11 +128,10 @@ class TraversalFront {
   std::uint32_t add_record(const WideHierarchy& a, const WideHierarchy& b, std::uint32_t slot_a,
                            std::uint32_t slot_b);
   std::uint32_t add_leaf(const Work& work, std::uint32_t slot_a, const WidePair& pair, bool touches);
-  void drop_record(std::uint32_t record);
-  /// Drops the pairs that a test let through, and puts its records on `dropping_`.
-  void drop_below(const Record& record);
-  /// Drops the records on `dropping_` and all below them.
-  void finish_dropping();
+  /// Drops the pairs that a record's test let through.
+  void drop_leaves(const Record& record);
+  /// Drops a list of records and all below them.
+  void drop_records(std::uint32_t first);
   void apply(const Work& work, const WideKeptTest& test);
 
   // By the indices of the queues; later entries are unused.
@@ -128,9 +140,7 @@ class TraversalFront {
   CertificateQueue test_queue_;
   SteadyArray<Leaf> leaves_;
   CertificateQueue leaf_queue_;
-  std::vector<std::uint32_t> requested_;               ///< Tests that are to be made.
-  std::vector<std::uint32_t> batch_, dropping_, due_;  ///< Scratch.
-  std::vector<WideKeptTest> tests_;
+  std::vector<std::uint32_t> requested_;  ///< Tests that are to be made.
 };
 
 }  // namespace lmdbench

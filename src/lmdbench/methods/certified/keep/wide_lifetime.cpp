@@ -252,19 +252,22 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
     if (i + FETCH_DISTANCE < due.size()) {
       const WideKeptPair& next = pairs[due[i + FETCH_DISTANCE]];
       fetch((next.open_a ? a : b).nodes[next.node]);
+      fetch((next.open_a ? b : a).nodes[next.other_slot() / WIDE_WIDTH]);
     }
     const WideKeptPair& pair = pairs[due[i]];
     const bool open_a = pair.open_a;
     const WideNode& node = (open_a ? a : b).nodes[pair.node];
+    const std::uint32_t slot = pair.other_slot();
+    const WideChild child((open_a ? b : a).nodes[slot / WIDE_WIDTH], slot % WIDE_WIDTH);
     const WideTransform& child_in_open = open_a ? query.b_in_a : query.a_in_b;
-    const WideProbe probe = make_probe(pair.child, child_in_open);
+    const WideProbe probe = make_probe(child, child_in_open);
     const KindBits kinds = kind_bits(node);
     // Touching matters for faces alone.
-    const bool may_touch = !pair.child.ref.is_feature() || pair.child.ref.is_face();
+    const bool may_touch = !child.ref.is_feature() || child.ref.is_face();
     WideLifetimeTest lifetime;
     lifetime.moving_lanes = open_a;
     lifetime.touch_lanes = may_touch ? kinds.faces | (0xFFu & ~kinds.features) : 0u;
-    const float* const centre = pair.child.centre;
+    const float* const centre = child.centre;
     lifetime.probe_distance =
         std::sqrt(centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]);
     const WideTransform& X = forecast.in_fixed;
@@ -275,14 +278,13 @@ void make_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery&
     }
     WideLifetimes result;
     if constexpr (std::is_same_v<Widths, WideWidthTest>) {
-      const std::uint32_t slot = open_a ? pair.slot_b : pair.slot_a;
       result = test_lifetime<VectorLanes>(
           node, probe, query.limits, forecast, lifetime,
           make_width_test(open_a ? a : b, pair.node, open_a ? b : a, slot, child_in_open));
     } else {
       result = test_lifetime<VectorLanes>(node, probe, query.limits, forecast, lifetime, NoWidths());
     }
-    const std::uint32_t final_lanes = pair.child.ref.is_feature() ? kinds.features : 0u;
+    const std::uint32_t final_lanes = child.ref.is_feature() ? kinds.features : 0u;
     tests[i] = {due[i],
                 result.used,
                 (result.lmd | result.touch) & ~final_lanes,
@@ -330,8 +332,6 @@ WideKeptPair::WideKeptPair(const WideHierarchy& a, const WideHierarchy& b, std::
   const WideOpening opening = choose_opening(a, b, slot_a, slot_b);
   open_a = opening.open_a;
   node = opening.node;
-  const std::uint32_t slot = open_a ? slot_b : slot_a;
-  child = WideChild((open_a ? b : a).nodes[slot / WIDE_WIDTH], slot % WIDE_WIDTH);
 }
 
 void test_batch(const WideHierarchy& a, const WideHierarchy& b, const WideQuery& query,

@@ -99,13 +99,16 @@ WideLifetimes test_lanes_lifetime_scalar(const WideNode& node, const WideProbe& 
                                          const WideLimits& limits, const WideForecast& forecast,
                                          const WideLifetimeTest& test, const WideWidthTest* widths = nullptr);
 
-/// A kept pair of children, one of which is opened. The other is copied: a node spreads it.
-struct alignas(64) WideKeptPair {
-  WideChild child;               ///< That is not opened, in its own mesh's frame.
+/// A kept pair of children, one of which is opened. The other is read from its node when it is
+/// tested: copies would be most of what is kept.
+struct WideKeptPair {
   std::uint32_t slot_a, slot_b;  ///< The children, node * 8 + lane.
   std::uint32_t node;            ///< Of the child that is opened.
   bool open_a;
 
+  std::uint32_t other_slot() const { return open_a ? slot_b : slot_a; }  ///< That is not opened.
+
+  WideKeptPair() = default;
   WideKeptPair(const WideHierarchy& a, const WideHierarchy& b, std::uint32_t slot_of_a,
                std::uint32_t slot_of_b);
 };
