@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 
 /// Is `certified` complete and exact? Its LMDs, distances and points are compared with `exhaustive`

@@ -12,7 +12,6 @@
 #include <support/scenes.h>
 
 #include <cstdlib>
-#include <string>
 
 /// Two convex bodies that are apart have exactly one LMD at every pose, at their distance.
 namespace lmdbench {

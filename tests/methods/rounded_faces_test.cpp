@@ -7,10 +7,7 @@
 #include <support/rounded.h>
 #include <support/scenes.h>
 
-#include <cmath>
-#include <memory>
 #include <numbers>
-#include <vector>
 
 /// Flat contact of meshes whose coordinates were rounded to single precision in files of their own.
 namespace lmdbench {

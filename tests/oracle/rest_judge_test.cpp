@@ -6,7 +6,6 @@
 #include <judge/rest_judge.h>
 
 #include <algorithm>
-#include <string>
 
 namespace lmdbench::exact {
 namespace {

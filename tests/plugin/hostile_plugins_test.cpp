@@ -3,7 +3,6 @@
 #include <lmdbench/result_file/result_reader.h>
 
 #include <cli/program.h>
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

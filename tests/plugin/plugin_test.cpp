@@ -18,7 +18,6 @@
 #include <xmmintrin.h>
 #endif
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <numbers>

@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <mutex>
-#include <vector>
 
 /// The servo loop never allocates, locks or faults; the tests notice such calls when planted.
 namespace lmdbench {

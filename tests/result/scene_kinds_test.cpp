@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/run/run.h>
-#include <lmdbench/stability/stability_search.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

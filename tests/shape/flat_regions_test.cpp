@@ -7,7 +7,6 @@
 #include <support/rounded.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lmdbench {
 namespace {

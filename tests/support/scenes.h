@@ -9,7 +9,6 @@
 #include <lmdbench/snch/first_approach.h>
 
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <random>

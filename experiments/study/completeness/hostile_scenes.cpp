@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/snch/first_approach.h>
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/convex_polygon.h>
-#include <lmdbench/mesh/placement.h>
 #include <lmdbench/snch/first_approach.h>
 
 #include <study/continuous_force/measures.h>

@@ -5,7 +5,6 @@
 #include <dlfcn.h>
 
 #include <cfenv>
-#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <stdexcept>

@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/force/aggregation.h>
-#include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/prepare/resting_pose.h>
 #include <lmdbench/snch/first_approach.h>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
-#include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/methods/query.h>

@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <numbers>
 #include <random>
 #include <sstream>

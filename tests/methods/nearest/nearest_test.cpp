@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
-#include <cmath>
 #include <random>
 
 namespace lmdbench {

@@ -16,7 +16,6 @@
 #include <limits>
 #include <numbers>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 
