@@ -15,9 +15,7 @@ Scene spheres() {
 }
 
 Pose at_gap(double gap) {
-  Pose pose;
-  pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
-  return pose;
+  return {Vec3(1.0 + gap, 0.0, 0.0)};
 }
 
 TEST(Query, JsonHasTheContractsKeys) {

@@ -113,8 +113,7 @@ TEST(RoundedFaces, ParallelEdgesAreOneContact) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     const Pair pair(make_box(Vec3(1.0, 0.4, 0.4), 2), make_box(Vec3(1.0, 0.4, 0.4), 3), 0.05, seed);
-    Pose X_DA;
-    X_DA.translation = Vec3(0.6 * (uniform(random) - 0.5), 0.41, 0.42);
+    const Pose X_DA{Vec3(0.6 * (uniform(random) - 0.5), 0.41, 0.42)};
     expect_same_contacts(pair, X_DA, 1.0, 1);
   }
 }

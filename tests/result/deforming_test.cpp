@@ -318,9 +318,7 @@ TEST(FrameVertices, AGeneratorWorksInTheMeshsOwnFrame) {
   MeshDeformation choice;
   choice.generator = DeformationChoice{DeformationKind::DENT, 0.1, 0.3, Vec3::UnitX(), 0};
   choice.period_s = 0.04;
-  Pose X_WF;
-  X_WF.translation = Vec3(5, 6, 7);
-  X_WF.rotation = Eigen::Quaterniond(0.8, 0.0, 0.0, 0.6);
+  const Pose X_WF{Vec3(5, 6, 7), Eigen::Quaterniond(0.8, 0.0, 0.0, 0.6)};
   const FrameVertices vertices(choice, {mesh, {}, mesh, X_WF}, 1000.0);
   std::vector<Vec3> found, expected;
   vertices.at(10, found);

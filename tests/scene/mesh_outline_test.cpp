@@ -59,8 +59,7 @@ TEST(MeshOutline, IsNearerThanTheMeshesAndNotByMuch) {
 TEST(MeshOutline, StopsWhereItIsNearEnough) {
   const auto mesh = make_body("mesh", make_sphere(0.5, 3));
   const auto& outline = mesh->prepared<MeshOutline>();
-  Pose pose;
-  pose.translation = Vec3(1.5, 0.0, 0.0);
+  const Pose pose{Vec3(1.5, 0.0, 0.0)};
   const double whole = outline_distance(outline, outline, RigidTransform(pose), -1.0);
   EXPECT_GT(whole, 0.2);
   EXPECT_LE(outline_distance(outline, outline, RigidTransform(pose), whole + 0.1), whole + 0.1);

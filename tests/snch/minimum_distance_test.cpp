@@ -58,8 +58,7 @@ TEST(WithinDistance, IsWhetherTheNearestPairIs) {
 TEST(NearestPair, FindsNothingBeyondTheBound) {
   const Scene scene = testing::make_scene(make_sphere(0.5, 2), make_sphere(0.5, 2), 1.0);
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-  Pose pose;
-  pose.translation = {2.0, 0.0, 0.0};
+  const Pose pose{Vec3(2.0, 0.0, 0.0)};
   const auto query = [&](double bound) {
     return nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
                         fixed.prepared<Hierarchy>(), pose, bound);
@@ -72,8 +71,7 @@ TEST(NearestPair, FindsNothingBeyondTheBound) {
 TEST(NearestPair, IsZeroInContact) {
   const Scene scene = testing::make_scene(make_sphere(0.5, 2), make_sphere(0.5, 2), 1.0);
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-  Pose pose;
-  pose.translation = {0.9, 0.01, 0.02};
+  const Pose pose{Vec3(0.9, 0.01, 0.02)};
   EXPECT_EQ(nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
                          fixed.prepared<Hierarchy>(), pose)
                 .distance,

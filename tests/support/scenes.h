@@ -28,9 +28,7 @@ inline Scene make_scene(TriangleMesh moving, TriangleMesh fixed, double cutoff) 
 
 /// A translation.
 inline Pose moved(double x, double y, double z) {
-  Pose pose;
-  pose.translation = Vec3(x, y, z);
-  return pose;
+  return {Vec3(x, y, z)};
 }
 
 /// Uniform in [0, 1), the same on every standard library.

@@ -177,8 +177,7 @@ std::vector<NotchRow> measure_notches() {
     }();
     const Scene scene{body_of(spindle), {body_of(block)}, CUTOFF};
     Renderer renderer(scene, profile, LayeredChoice());
-    Pose pose;
-    pose.translation = Vec3(1e-5, 0.013, APART / std::sin(angle));
+    const Pose pose{Vec3(1e-5, 0.013, APART / std::sin(angle))};
     const Forces force = renderer.at(pose).force;
     NotchRow row{degrees, {}};
     for (std::size_t law = 0; law < LAWS; ++law) row.outwards[law] = force[law].z();

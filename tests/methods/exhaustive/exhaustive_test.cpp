@@ -199,9 +199,8 @@ TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
   const Scene scene = make_scene(make_box({0.06, 0.06, 0.06}, 2), make_box({0.3, 0.3, 0.01}, 5), 0.005);
   for (int step = 0; step <= 60; ++step) {
     const double tilt = 1e-11 * std::pow(1.15, step);
-    Pose pose;
-    pose.translation = {0.01, 0.02, 0.0355};
-    pose.rotation = Eigen::AngleAxisd(tilt, Vec3(1.0, 0.3, 0.0).normalized());
+    const Pose pose{Vec3(0.01, 0.02, 0.0355),
+                    Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vec3(1.0, 0.3, 0.0).normalized()))};
     for (const char* name : {"exhaustive", "certified"}) {
       LmdSet lmds;
       WorkCounters counters;

@@ -85,8 +85,7 @@ TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
 /// Boxes corner to corner: whole faces are beside each other.
 TEST_F(ImprovedTest, EachVisibilityPolicyCullsOnCoarseMeshes) {
   const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
-  Pose pose;
-  pose.translation = {0.11, 0.12, 0.115};
+  const Pose pose{Vec3(0.11, 0.12, 0.115)};
   const auto culled = [&](Visibility visibility) {
     LmdSet candidates;
     WorkCounters work;
@@ -232,8 +231,7 @@ TEST_F(ImprovedTest, APlainCacheGivesTheSameSetsForTheSameWork) {
 /// Decision E3: of overlapping meshes only the ablation rejects pairs that face away.
 TEST_F(ImprovedTest, AClampedSigmaRejectsAmongOverlappingSpheres) {
   const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
-  Pose pose;
-  pose.translation = {0.09, 0.001, 0.002};
+  const Pose pose{Vec3(0.09, 0.001, 0.002)};
   ImprovedOptions options = with(Visibility::OFF, Reduction::PUBLISHED);
   LmdSet lmds;
   WorkCounters usual, clamped;
@@ -277,8 +275,7 @@ TEST_F(ImprovedTest, LiteralG3LosesAlmostEverything) {
 TEST_F(ImprovedTest, AContactKeepsItsLastDirection) {
   const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
   Improved improved(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
-  Pose pose;
-  pose.translation = {0.101, 0.001, 0.002};
+  Pose pose{Vec3(0.101, 0.001, 0.002)};
   LmdSet lmds;
   improved.search(pose, lmds, counters_);
   improved.track(pose, lmds, counters_);
@@ -341,8 +338,7 @@ LmdSet track_without_memory(const Scene& scene, const Pose& pose, LmdSet lmds, b
 TEST_F(ImprovedTest, WhatIsRememberedOfTwoHubsIsWhatEveryWalkFinds) {
   for (const Reduction reduction : {Reduction::PUBLISHED, Reduction::LOSS_FREE}) {
     const Scene scene = make_scene(hub(11, -1.0), hub(11, 1.0), 0.3);
-    Pose pose;
-    pose.translation = {0.03, 0.02, 0.05};
+    Pose pose{Vec3(0.03, 0.02, 0.05)};
     Improved improved(scene, with(Visibility::OFF, reduction));
     LmdSet lmds;
     improved.search(pose, lmds, counters_);
@@ -372,8 +368,7 @@ TEST_F(ImprovedTest, WhatIsRememberedOfTwoHubsIsWhatEveryWalkFinds) {
 /// 500 triangles each: 250,000 pairs, about as many candidates; walks would visit 4e10 pairs.
 TEST_F(ImprovedTest, TwoHubsAreTrackedInTime) {
   const Scene scene = make_scene(hub(125, -1.0), hub(125, 1.0), 0.3);
-  Pose pose;
-  pose.translation = {0.003, 0.002, 0.05};
+  const Pose pose{Vec3(0.003, 0.002, 0.05)};
   Improved improved(scene);
   LmdSet lmds;
   improved.search(pose, lmds, counters_);

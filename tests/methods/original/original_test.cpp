@@ -193,8 +193,7 @@ TEST_F(OriginalTest, ATwoSidedLineConeLetsMoreNodePairsThrough) {
 /// Decision E13: a vertex pair is one LMD.
 TEST_F(OriginalTest, AVertexPairIsOneLmd) {
   const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
-  Pose pose;
-  pose.translation = {0.11, 0.12, 0.115};
+  const Pose pose{Vec3(0.11, 0.12, 0.115)};
   const LmdSet lmds = search(scene, pose, 0.1);
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::VERTEX);
@@ -204,8 +203,7 @@ TEST_F(OriginalTest, AVertexPairIsOneLmd) {
 /// The defect that the paper mends: on a large triangle the nearest feature points are far away.
 TEST_F(OriginalTest, MissesWhatALargeTriangleHides) {
   const Scene scene = make_scene(make_sphere(0.002, 1), make_box({0.1, 0.1, 0.1}), 0.002);
-  Pose pose;
-  pose.translation = {0.021, 0.013, 0.053};
+  const Pose pose{Vec3(0.021, 0.013, 0.053)};
   LmdSet truth;
   Exhaustive(scene).search(pose, truth, work_);
   EXPECT_EQ(truth.size(), 1u);
@@ -228,8 +226,7 @@ TEST_F(OriginalTest, APairOfFaceCentresMovesOnOnlyWithItsEdgeNeighbours) {
   centres.feature_fixed = {FeatureKind::FACE, 6};
   centres.triangle_moving = 2;
   centres.triangle_fixed = 6;
-  Pose pose;
-  pose.translation = {0.0, 0.0, 0.1};
+  const Pose pose{Vec3(0.0, 0.0, 0.1)};
   const auto tracked = [&](FaceNeighbourhood neighbourhood) {
     OriginalOptions options;
     options.face_neighbourhood = neighbourhood;
