@@ -60,9 +60,7 @@ TEST(ConvexBodies, HaveOneLmdAtEveryPose) {
       }
       ++asked;
       for (const auto& method : {truth.get(), certified.get()}) {
-        LmdSet lmds;
-        WorkCounters counters;
-        method->search(pose, lmds, counters);
+        const LmdSet lmds = lmds_at(*method, pose);
         const bool right = lmds.size() == 1 && lmds[0].distance >= apart - 4.0 * tolerance.rounding &&
                            lmds[0].distance <= apart + tolerance.widest_tie(apart);
         EXPECT_TRUE(right) << method->description().name << ", scene " << seed << " pose " << k << ", apart "

@@ -49,9 +49,7 @@ TEST(Query, EmptySetHasNullDistance) {
 TEST(Query, ImprovedReducesItsCandidates) {
   const Scene scene = spheres();
   const auto improved = make_method("improved", scene);
-  LmdSet candidates;
-  WorkCounters counters;
-  improved->search(at_gap(0.01), candidates, counters);
+  const LmdSet candidates = lmds_at(*improved, at_gap(0.01));
   const QueryAnswer answer = query(*improved, at_gap(0.01), 0.05);
   EXPECT_LT(answer.lmds.size(), candidates.size());
   const auto steps = std::find_if(answer.counters.begin(), answer.counters.end(),

@@ -40,10 +40,7 @@ struct Pair {
 };
 
 LmdSet answer(const char* method, const Scene& scene, const Pose& pose) {
-  LmdSet lmds;
-  WorkCounters counters;
-  make_method(method, scene)->search(pose, lmds, counters);
-  return lmds;
+  return lmds_at(*make_method(method, scene), pose);
 }
 
 /// Expects as many contacts of the rounded pair as of the exact pair, at the same places.

@@ -86,10 +86,8 @@ TEST(Deforming, TheSetsOfARunAreThoseOfEachFramesMeshes) {
   for (std::int64_t frame = 0; frame < 50; ++frame) {
     const Scene scene = fresh_scene(run.prepared, frame);
     const Pose& pose = run.prepared.input.poses[static_cast<std::size_t>(frame)];
-    LmdSet fresh, rest;
-    WorkCounters counters;
-    make_method("certified", scene)->search(pose, fresh, counters);
-    make_method("certified", run.prepared.scene())->search(pose, rest, counters);
+    const LmdSet fresh = lmds_at(*make_method("certified", scene), pose);
+    const LmdSet rest = lmds_at(*make_method("certified", run.prepared.scene()), pose);
     const LmdSet& kept = certified.lmds.at(frame);
     ASSERT_EQ(kept.size(), fresh.size()) << "frame " << frame;
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -115,10 +113,8 @@ TEST(Deforming, TruthAndFclSeeEachFramesMeshes) {
             result.doubles("/methods/certified/truth/recall").size());
   EXPECT_GT(run.tracks.front().truth()->frames.size(), 5u);
   for (const TruthFrame& truth : run.tracks.front().truth()->frames) {
-    LmdSet lmds;
-    WorkCounters counters;
-    make_method("exhaustive", fresh_scene(run.prepared, truth.frame))
-        ->search(run.prepared.input.poses[static_cast<std::size_t>(truth.frame)], lmds, counters);
+    const LmdSet lmds = lmds_at(*make_method("exhaustive", fresh_scene(run.prepared, truth.frame)),
+                                run.prepared.input.poses[static_cast<std::size_t>(truth.frame)]);
     ASSERT_EQ(truth.lmds.size(), lmds.size()) << "frame " << truth.frame;
     for (std::size_t i = 0; i < lmds.size(); ++i) EXPECT_EQ(truth.lmds[i].distance, lmds[i].distance);
   }

@@ -133,10 +133,7 @@ class Truth {
     const Body *a = play_.movers[mover].get(), *b = fixed.body.get();
     auto& method = methods_[{a, b}];
     if (!method) method = make_method("exhaustive", {play_.movers[mover], {fixed.body}, cutoff_});
-    LmdSet lmds;
-    WorkCounters ignored;
-    method->search(relative_pose(moves ? poses[other] : fixed.X_WF, poses[mover]), lmds, ignored);
-    return lmds;
+    return lmds_at(*method, relative_pose(moves ? poses[other] : fixed.X_WF, poses[mover]));
   }
 
  private:
@@ -243,9 +240,7 @@ TEST(MovingObjects, IsTheWorldWithEveryMeshInPlace) {
       const auto method = make_method("exhaustive", {in_place(*play.movers[pair.mover], poses[pair.mover]),
                                                      {in_place(*fixed.body, fixed.X_WF)},
                                                      CUTOFF});
-      LmdSet expected;
-      WorkCounters ignored;
-      method->search(Pose{}, expected, ignored);
+      const LmdSet expected = lmds_at(*method, Pose{});
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) {
         const Lmd& lmd = found[i];
@@ -272,12 +267,10 @@ TEST(MovingObjects, OfOneMoverIsAWorld) {
   }
   Player player(play, 0.2);
   const auto world = make_method("certified", {play.movers[0], play.standing, 0.2});
-  LmdSet lmds;
-  WorkCounters counters;
   std::size_t all = 0;
   for (const std::vector<Pose>& poses : play.frames) {
     const LmdSet& found = player.at(poses);
-    world->search(poses[0], lmds, counters);
+    const LmdSet lmds = lmds_at(*world, poses[0]);
     ASSERT_EQ(found.size(), lmds.size());
     for (std::size_t i = 0; i < lmds.size(); ++i) {
       EXPECT_EQ(found[i].fixed_body, lmds[i].fixed_body + 1);

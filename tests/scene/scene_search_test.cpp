@@ -161,8 +161,6 @@ TEST(SceneSearch, FollowsMeshesThatDeformFarFromTheirOwnOrigin) {
   Scene scene{make_body("moving", make_sphere(0.5, 2)), {}, 0.2};
   for (const double x : {-0.1, 0.1}) scene.fixed.emplace_back(soft, moved(x - far.x(), -far.y(), -far.z()));
   const auto certified = make_method("certified", scene), truth = make_method("exhaustive", scene);
-  LmdSet found, expected;
-  WorkCounters ignored;
   std::size_t lmds = 0;
   for (int frame = 0; frame < 30; ++frame) {
     if (frame % 10 == 9) {
@@ -172,8 +170,7 @@ TEST(SceneSearch, FollowsMeshesThatDeformFarFromTheirOwnOrigin) {
     }
     // In one frame the deforming pairs are no candidates, and their methods are given back.
     const Pose pose = moved(frame == 19 ? 50.0 : 0.0, 1.15 + 0.005 * frame, 0.1);
-    certified->search(pose, found, ignored);
-    truth->search(pose, expected, ignored);
+    const LmdSet found = lmds_at(*certified, pose), expected = lmds_at(*truth, pose);
     ASSERT_EQ(found.size(), expected.size()) << frame;
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_TRUE(same_feature_pair(found[i], expected[i])) << frame;

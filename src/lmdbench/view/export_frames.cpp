@@ -208,8 +208,6 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
     force_of.push_back(result.reals("/methods/" + label + "/movers/force"));
   Series movers(exporter, "movers", track.method), lmds(exporter, "lmds-movers", track.method),
       forces(exporter, "forces-movers", track.method);
-  LmdSet set;
-  WorkCounters ignored;
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const std::size_t frame = track.frames[i];
     const auto& [time, pose] = track.poses[i];
@@ -238,7 +236,7 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
                                                 force.end());
       }
     }
-    exact->search(pose, set, ignored);
+    const LmdSet set = lmds_at(*exact, pose);
     for (const Lmd& lmd : set)
       add_lmd(pairs, lmd.point_moving, lmd.point_fixed, lmd.distance,
               static_cast<double>(lmd.feature_moving.kind), static_cast<double>(lmd.feature_fixed.kind));

@@ -23,10 +23,8 @@ using testing::make_scene;
 using testing::moved;
 
 LmdSet truth(const Scene& scene, const Pose& pose) {
-  LmdSet lmds;
-  WorkCounters counters;
-  Exhaustive(scene).search(pose, lmds, counters);
-  return lmds;
+  Exhaustive method(scene);
+  return lmds_at(method, pose);
 }
 
 std::set<std::tuple<FeatureId, FeatureId>> feature_pairs(const LmdSet& lmds) {
@@ -202,9 +200,7 @@ TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
     const Pose pose{Vec3(0.01, 0.02, 0.0355),
                     Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vec3(1.0, 0.3, 0.0).normalized()))};
     for (const char* name : {"exhaustive", "certified"}) {
-      LmdSet lmds;
-      WorkCounters counters;
-      make_method(name, scene)->search(pose, lmds, counters);
+      const LmdSet lmds = lmds_at(*make_method(name, scene), pose);
       EXPECT_EQ(lmds.size(), 1u) << name << ", tilt " << tilt;
     }
   }
