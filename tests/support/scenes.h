@@ -4,9 +4,9 @@
 
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/snch/first_approach.h>
 
 #include <cmath>
 #include <memory>
@@ -57,9 +57,7 @@ inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random
   Pose pose;
   pose.rotation = random_rotation(random);
   const Vec3 outward = -random_direction(random);
-  const double displacement = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                             fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-9)
-                                  .displacement;
+  const double displacement = first_approach(moving, fixed, pose, outward, gap, 1e-9).displacement;
   if (!std::isfinite(displacement)) return grazing_pose(scene, gap, random);  // A miss.
   pose.translation = displacement * outward;
   return pose;

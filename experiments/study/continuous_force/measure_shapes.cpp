@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/convex_polygon.h>
-#include <lmdbench/snch/first_approach.h>
+#include <lmdbench/lmd/body_distance.h>
 
 #include <study/continuous_force/measures.h>
 #include <support/closed_solids.h>
@@ -81,9 +81,7 @@ std::vector<CutRow> measure_cuts(std::size_t poses, std::uint64_t seed) {
     const Vec3 outward = random.direction();
     const Body &moving = *plain.moving, &fixed = *plain.fixed[0];
     const double displacement =
-        first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                       fixed.prepared<Hierarchy>(), pose, outward, random.uniform(0.02, 0.15), 1e-6)
-            .displacement;
+        first_approach(moving, fixed, pose, outward, random.uniform(0.02, 0.15), 1e-6).displacement;
     if (!std::isfinite(displacement)) continue;
     pose.translation = displacement * outward;
     chosen.push_back(pose);

@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 
 #include <cfenv>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <stdexcept>

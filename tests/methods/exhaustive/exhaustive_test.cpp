@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/methods/exhaustive/feature_grid.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/polar_cone.h>
@@ -71,10 +71,7 @@ TEST(Exhaustive, CrossedWedgesAreOneEdgePair) {
                   Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX());
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
   pose.translation = {0.013, 0.007, 2.0 * top};
-  pose.translation.z() -= nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                       fixed.prepared<Hierarchy>(), pose)
-                              .distance -
-                          0.01;
+  pose.translation.z() -= nearest_pair(moving, fixed, pose).distance - 0.01;
   const LmdSet lmds = truth(scene, pose);
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::EDGE);
@@ -172,11 +169,7 @@ TEST(Exhaustive, HoldsTheMinimumDistanceAndIsSortedAndFreeOfDuplicates) {
     const LmdSet lmds = truth(scene, pose);
     ASSERT_FALSE(lmds.empty());
     const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-    EXPECT_NEAR(lmds[0].distance,
-                nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                             fixed.prepared<Hierarchy>(), pose)
-                    .distance,
-                1e-15);
+    EXPECT_NEAR(lmds[0].distance, nearest_pair(moving, fixed, pose).distance, 1e-15);
     EXPECT_TRUE(std::is_sorted(lmds.begin(), lmds.end(), lmd_less));
     EXPECT_EQ(feature_pairs(lmds).size(), lmds.size());
   }

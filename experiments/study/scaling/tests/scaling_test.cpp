@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
 #include <study/scaling/measure.h>
@@ -49,9 +49,7 @@ TEST(LeadIn, SlidesTowardsThePoseInEqualSteps) {
   frames.push_back(end);
   for (std::size_t i = 0; i + 1 < frames.size(); ++i)
     EXPECT_NEAR(frames[i].rotation.angularDistance(frames[i + 1].rotation), TURN_RAD_PER_FRAME, 1e-9);
-  const double before = nearest_pair(blob.surface(), blob.prepared<Hierarchy>(), box.surface(),
-                                     box.prepared<Hierarchy>(), frames[9])
-                            .distance;
+  const double before = nearest_pair(blob, box, frames[9]).distance;
   EXPECT_NEAR(before, GAP, 0.2 * SLIDE_DIAGONALS_PER_FRAME * DIAGONAL) << "tangential";
 }
 
