@@ -16,13 +16,12 @@
 #include <result/deterministic_datasets.h>
 #include <result_file/result_reading.h>
 #include <support/committed.h>
+#include <support/files.h>
 #include <support/message_of.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -209,11 +208,7 @@ TEST(Deforming, AnExportHasEachFramesShape) {
   const RunResult run = run_to(small_run({"/frames=40"}), scratch / "r.h5");
   const ResultReader result(scratch / "r.h5");
   export_frames(result, scratch / "vtk", 4);
-  const auto text = [&](const std::string& name) {
-    std::ostringstream all;
-    all << std::ifstream(scratch / name).rdbuf();
-    return all.str();
-  };
+  const auto text = [&](const std::string& name) { return testing::read_text(scratch / name); };
   EXPECT_TRUE(std::filesystem::exists(scratch / "vtk/fixed_0.pvd"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "vtk/fixed_0.vtu"));
   EXPECT_GT(text("vtk/fixed_0/000010.vtu").size(), 1000u);
