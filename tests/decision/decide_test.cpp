@@ -123,10 +123,8 @@ TEST(Decide, ACornerOverAFaceItsEdgeAndItsCorner) {
 
 /// A tetrahedron on its tip at the origin, whose cone has nearly all downward directions.
 TriangleMesh needle() {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {0.02, 0, 1}, {-0.01, 0.017, 1}, {-0.01, -0.017, 1}};
-  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
-  return mesh;
+  return {{{0, 0, 0}, {0.02, 0, 1}, {-0.01, 0.017, 1}, {-0.01, -0.017, 1}},
+          {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
 }
 
 TEST(Decide, TheEndOfAHolesSideIsNoPlaceToStopAt) {
@@ -175,10 +173,8 @@ TEST(Decide, ACornerBelowAFaceHasNoContactWithIt) {
 
 /// Bar along x with its sharp edge down, along the x axis from -1 to 1.
 TriangleMesh edge_down() {
-  TriangleMesh mesh;
-  mesh.vertices = {{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}};
-  mesh.triangles = {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}};
-  return mesh;
+  return {{{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}},
+          {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}}};
 }
 /// The same below, edge up.
 TriangleMesh edge_up() {

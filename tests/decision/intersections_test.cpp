@@ -78,9 +78,8 @@ TEST(CornerGroups, ForgottenCornersJoinNothing) {
 class IntersectionsTest : public ::testing::Test {
  protected:
   IntersectionsTest() {
-    TriangleMesh strip;
-    strip.vertices = {{0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {2, 1, 0}, {2, 0, 0}};
-    strip.triangles = {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}};
+    const TriangleMesh strip{{{0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {2, 1, 0}, {2, 0, 0}},
+                             {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}};
     scene_ = testing::make_scene(strip, strip, 1.0);
     scene_.fixed.push_back(scene_.fixed[0]);
   }

@@ -256,9 +256,7 @@ TEST(FaceNeighbours, AreTheFaceAndWhatLiesAcrossItsEdges) {
       EXPECT_EQ(shared, 2) << "face " << t << " and " << faces[k];
     }
   }
-  TriangleMesh alone;
-  alone.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  alone.triangles = {{0, 1, 2}};
+  const TriangleMesh alone{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}};
   EXPECT_EQ(FaceNeighbours(build_surface(alone)).of(0).size(), 1u) << "nothing is across a boundary";
 }
 
