@@ -18,6 +18,7 @@
 #include <support/committed.h>
 #include <support/files.h>
 #include <support/message_of.h>
+#include <support/same_lmds.h>
 
 #include <algorithm>
 #include <cmath>
@@ -88,11 +89,7 @@ TEST(Deforming, TheSetsOfARunAreThoseOfEachFramesMeshes) {
     const LmdSet fresh = lmds_at(*make_method("certified", scene), pose);
     const LmdSet rest = lmds_at(*make_method("certified", run.prepared.scene()), pose);
     const LmdSet& kept = certified.lmds.at(frame);
-    ASSERT_EQ(kept.size(), fresh.size()) << "frame " << frame;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      EXPECT_TRUE(same_feature_pair(kept[i], fresh[i])) << "frame " << frame;
-      EXPECT_EQ(kept[i].distance, fresh[i].distance) << "frame " << frame;
-    }
+    testing::expect_same_lmds(kept, fresh, "frame " + std::to_string(frame));
     found += fresh.size();
     differ_from_rest +=
         fresh.size() != rest.size() || (!fresh.empty() && fresh[0].distance != rest[0].distance);

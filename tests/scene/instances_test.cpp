@@ -6,6 +6,7 @@
 #include <lmdbench/scene/scatter.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -126,13 +127,7 @@ TEST(Instances, EveryOrderOfInstancesGivesTheSameBits) {
     for (Lmd& lmd : second)
       lmd.fixed_body = static_cast<std::int32_t>(order[static_cast<std::size_t>(lmd.fixed_body)]);
     std::sort(second.begin(), second.end(), lmd_less);
-    ASSERT_EQ(first.size(), second.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      ASSERT_TRUE(same_feature_pair(first[i], second[i]));
-      ASSERT_EQ(first[i].distance, second[i].distance);
-      ASSERT_EQ(first[i].point_moving, second[i].point_moving);
-      ASSERT_EQ(first[i].point_fixed, second[i].point_fixed);
-    }
+    testing::expect_same_lmds(first, second);
   }
 }
 
@@ -259,11 +254,7 @@ TEST(Instances, KeptStateGoesFromInstanceToInstanceAndBack) {
     Pose pose = moved(((frame / 100) % 2 == 0 ? -4.0 : 4.0) + 1.9 - 0.002 * (frame % 100), 0.2, 0.1);
     coherent->search(pose, kept, of_kept);
     scratch->search(pose, fresh, of_fresh);
-    ASSERT_EQ(kept.size(), fresh.size()) << frame;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      ASSERT_TRUE(same_feature_pair(kept[i], fresh[i]));
-      ASSERT_EQ(kept[i].point_moving, fresh[i].point_moving);
-    }
+    testing::expect_same_lmds(kept, fresh, std::to_string(frame));
     lmds += kept.size();
   }
   EXPECT_GT(lmds, 600u);

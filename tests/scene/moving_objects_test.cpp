@@ -5,6 +5,7 @@
 #include <lmdbench/scene/scene_search.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -307,16 +308,8 @@ TEST(MovingObjects, NeitherOrderNorTuningChangesASet) {
     tuned.emplace_back(play, 0.2, BroadPhase::Tuning{.slack = slack, .pack_share = share});
   std::size_t swapped = 0, kept = 0;
   for (std::size_t frame = 0; frame < play.frames.size(); ++frame) {
-    const LmdSet found = player.at(play.frames[frame]);
-    for (Player& one : tuned) {
-      const LmdSet& again = one.at(play.frames[frame]);
-      ASSERT_EQ(again.size(), found.size());
-      for (std::size_t i = 0; i < again.size(); ++i) {
-        EXPECT_TRUE(same_feature_pair(again[i], found[i]));
-        EXPECT_EQ(again[i].point_moving, found[i].point_moving);
-        EXPECT_EQ(again[i].distance, found[i].distance);
-      }
-    }
+    const LmdSet untuned = player.at(play.frames[frame]);
+    for (Player& one : tuned) testing::expect_same_lmds(one.at(play.frames[frame]), untuned);
     const Sets first = player.sets_at(play.frames[frame]), second = other.sets_at(shuffled.frames[frame]);
     ASSERT_EQ(first.size(), second.size());
     for (const auto& [pair, lmds] : second) {
@@ -433,9 +426,7 @@ TEST(MovingObjects, MethodsGoFromPairToPair) {
   std::uint32_t met = 0;
   for (const std::vector<Pose>& poses : play.frames) {
     const Sets sets = player.sets_at(poses);
-    const LmdSet &found = player.at(poses), &fresh = scratch.at(poses);
-    ASSERT_EQ(found.size(), fresh.size());
-    for (std::size_t i = 0; i < fresh.size(); ++i) ASSERT_EQ(found[i].point_fixed, fresh[i].point_fixed);
+    testing::expect_same_lmds(player.at(poses), scratch.at(poses));
     for (const auto& [pair, lmds] : sets) met = std::max(met, pair.other);
   }
   EXPECT_EQ(met, 60u);
@@ -447,9 +438,8 @@ TEST(MovingObjects, OneMethodServesAllThatKeepNothing) {
   Player certified(play, 0.2), exhaustive(play, 0.2, {}, "exhaustive");
   std::size_t lmds = 0;
   for (const std::vector<Pose>& poses : play.frames) {
-    const LmdSet &found = certified.at(poses), &truth = exhaustive.at(poses);
-    ASSERT_EQ(found.size(), truth.size());
-    for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_TRUE(same_feature_pair(found[i], truth[i]));
+    const LmdSet& truth = exhaustive.at(poses);
+    testing::expect_like_lmds(certified.at(poses), truth, 1e-12);
     lmds += truth.size();
   }
   EXPECT_GT(lmds, 0u);

@@ -4,6 +4,7 @@
 #include <lmdbench/scene/scene_search.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -82,13 +83,7 @@ TEST(SceneSearch, OfSeveralFixedMeshesUnitesTheirSetsBitForBit) {
         }
         std::sort(expected.begin(), expected.end(), lmd_less);
         const LmdSet& found = tracks ? tracked : lmds;
-        ASSERT_EQ(found.size(), expected.size()) << description.name;
-        for (std::size_t i = 0; i < found.size(); ++i) {
-          ASSERT_TRUE(same_feature_pair(found[i], expected[i])) << description.name;
-          ASSERT_EQ(found[i].distance, expected[i].distance);
-          ASSERT_EQ(found[i].point_moving, expected[i].point_moving);
-          ASSERT_EQ(found[i].point_fixed, expected[i].point_fixed);
-        }
+        testing::expect_same_lmds(found, expected, description.name);
         count += found.size();
       }
       tracked = lmds;
@@ -171,11 +166,7 @@ TEST(SceneSearch, FollowsMeshesThatDeformFarFromTheirOwnOrigin) {
     // In one frame the deforming pairs are no candidates, and their methods are given back.
     const Pose pose = moved(frame == 19 ? 50.0 : 0.0, 1.15 + 0.005 * frame, 0.1);
     const LmdSet found = lmds_at(*certified, pose), expected = lmds_at(*truth, pose);
-    ASSERT_EQ(found.size(), expected.size()) << frame;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_TRUE(same_feature_pair(found[i], expected[i])) << frame;
-      EXPECT_NEAR(found[i].distance, expected[i].distance, 1e-12) << frame;
-    }
+    testing::expect_like_lmds(found, expected, 1e-12, std::to_string(frame));
     lmds += found.size();
   }
   EXPECT_GT(lmds, 30u);

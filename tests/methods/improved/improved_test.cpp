@@ -8,6 +8,7 @@
 #include <lmdbench/methods/improved/improved.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -157,11 +158,7 @@ TEST_F(ImprovedTest, TrackingDoesNotDependOnTheOrderOfTheSet) {
     std::shuffle(second.begin(), second.end(), random);
     improved.track(pose, first, counters_);
     improved.track(pose, second, counters_);
-    ASSERT_EQ(first.size(), second.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      EXPECT_TRUE(same_feature_pair(first[i], second[i]));
-      EXPECT_EQ(first[i].distance, second[i].distance);
-    }
+    testing::expect_same_lmds(first, second);
   });
 }
 
@@ -211,8 +208,7 @@ TEST_F(ImprovedTest, APlainCacheGivesTheSameSetsForTheSameWork) {
       usual.track(pose, first, one);
       plain.track(pose, second, other);
       EXPECT_EQ(one, other);
-      ASSERT_EQ(first.size(), second.size());
-      for (std::size_t i = 0; i < first.size(); ++i) EXPECT_TRUE(same_feature_pair(first[i], second[i]));
+      testing::expect_same_lmds(first, second);
     }
   });
 }
