@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <support/closed_solids.h>
 #include <support/convex_bodies.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -63,15 +64,6 @@ std::string text(const CriticalSet& set) {
   return result;
 }
 
-bool same_bits(const LmdSet& a, const LmdSet& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const Lmd& x, const Lmd& y) {
-           return x.distance == y.distance && x.point_moving == y.point_moving &&
-                  x.point_fixed == y.point_fixed &&
-                  (x.direction == y.direction || !x.direction.allFinite()) && same_feature_pair(x, y) &&
-                  x.triangle_moving == y.triangle_moving && x.triangle_fixed == y.triangle_fixed;
-         });
-}
-
 TEST(CriticalPairs, IndicesAddUpToTheEulerCharacteristics) {
   const auto all = solids();
   ASSERT_FALSE(methods_with_critical_pairs().empty());
@@ -88,8 +80,8 @@ TEST(CriticalPairs, IndicesAddUpToTheEulerCharacteristics) {
           EXPECT_EQ(sum_of_indices(critical), all[a].euler * all[b].euler)
               << name << ", " << all[a].name << " at " << all[b].name << ", pose " << k << "\n"
               << text(critical);
-          EXPECT_TRUE(same_bits(minima_of(critical), lmds_at(*method, pose)))
-              << name << ", " << all[a].name << ", " << all[b].name;
+          testing::expect_same_lmds(minima_of(critical), lmds_at(*method, pose),
+                                    name + ", " + all[a].name + ", " + all[b].name);
           for (const CriticalPair& pair : critical)
             EXPECT_TRUE(pair.has_index && (!pair.is_minimum || pair.index == 1)) << pair.index;
         }
@@ -130,7 +122,7 @@ TEST(CriticalPairs, BordersHaveNoIndex) {
     for (const Pose& pose :
          {testing::moved(0.9, 0.05, 0.0), testing::moved(0.7, 0.7, 0.1), testing::moved(0.0, 0.0, 0.5)}) {
       const CriticalSet critical = critical_at(*method, pose);
-      EXPECT_TRUE(same_bits(minima_of(critical), lmds_at(*method, pose)));
+      testing::expect_same_lmds(minima_of(critical), lmds_at(*method, pose));
       ASSERT_FALSE(critical.empty());
       for (const CriticalPair& pair : critical) {
         const bool on_border = scene.fixed[0]->surface().is_boundary(pair.pair.feature_fixed);

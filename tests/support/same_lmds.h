@@ -22,12 +22,18 @@ inline void expect_like_lmds(const LmdSet& found, const LmdSet& expected, double
   }
 }
 
-/// Expects LMDs of the same features in the same order, with the same bits of distances and points.
+/// Expects LMDs of the same features in the same order, all with the same bits; directions where
+/// there are any.
 inline void expect_same_lmds(const LmdSet& found, const LmdSet& expected, const std::string& where = "") {
   expect_like_lmds(found, expected, 0.0, where);
   for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
     EXPECT_EQ(found[i].point_moving, expected[i].point_moving) << where << ", LMD " << i;
     EXPECT_EQ(found[i].point_fixed, expected[i].point_fixed) << where << ", LMD " << i;
+    EXPECT_EQ(found[i].triangle_moving, expected[i].triangle_moving) << where << ", LMD " << i;
+    EXPECT_EQ(found[i].triangle_fixed, expected[i].triangle_fixed) << where << ", LMD " << i;
+    if (found[i].direction.allFinite() || expected[i].direction.allFinite()) {
+      EXPECT_EQ(found[i].direction, expected[i].direction) << where << ", LMD " << i;
+    }
   }
 }
 
