@@ -4,7 +4,7 @@
 #include <judge/accuracy_table.h>
 #include <judge/distance_bracket.h>
 #include <judge/distance_kernels.h>
-#include <time.h>
+#include <support/timing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,13 +76,6 @@ void judge(const DistanceAnswer& answer, const Triangle& a, const Triangle& b, c
   cell.worst = std::max(cell.worst, error);
 }
 
-/// Processor time of this thread, unaffected by other processes.
-double thread_nanoseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
-
 std::string worst_text(double worst) {
   if (std::isinf(worst)) return "not a number";
   return worst == 0.0 ? "0" : fmt::format("{:.0e}", worst);
@@ -125,9 +118,9 @@ std::vector<double> time_kernels(const TriangleFamily& family, int pairs, int re
   std::vector<DistanceAnswer> answers(list.a.size());
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     for (std::size_t k = 0; k < kernels.size(); ++k) {
-      const double begin = thread_nanoseconds();
+      const double begin = experiments::thread_seconds();
       kernels[k].run(list.a, list.b, answers);
-      times[k].push_back((thread_nanoseconds() - begin) / pairs);
+      times[k].push_back(1e9 * (experiments::thread_seconds() - begin) / pairs);
     }
   }
   std::vector<double> medians;

@@ -4,7 +4,6 @@
 #include <CGAL/Simple_cartesian.h>
 #include <judge/contact_area.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

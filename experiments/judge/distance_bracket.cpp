@@ -8,7 +8,6 @@
 #include <judge/witness_search.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 

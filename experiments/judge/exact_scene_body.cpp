@@ -3,7 +3,6 @@
 #include <judge/exact_scene_body.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lmdbench::exact {

@@ -5,7 +5,6 @@
 #include <CGAL/Simple_cartesian.h>
 #include <judge/exact_scene_body.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>

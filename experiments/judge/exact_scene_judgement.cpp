@@ -62,9 +62,7 @@ std::vector<Judgement> judge_experiment(const std::filesystem::path& experiment_
     const std::vector<ExactLmd> truth = exact_lmds(run.scene(), X_WM);
     const bool touching = exactly_touching(run.scene(), X_WM);
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      LmdSet lmds;
-      WorkCounters counters;
-      methods[m]->search(X_WM, lmds, counters);
+      const LmdSet lmds = lmds_at(*methods[m], X_WM);
       const std::string place = fmt::format("{}, frame {}: ", judgements[m].method, frame);
       judge_frame(run.scene(), X_WM, truth, touching, lmds, place, judgements[m]);
     }

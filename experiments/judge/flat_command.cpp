@@ -49,9 +49,7 @@ void judge_scene(const parts::PartsChoice& choice, std::size_t poses, CountsOfMe
     const FlatTruth truth(parts.scene.moving->surface(), parts.scene.fixed[0]->surface(), X_WM,
                           parts.scene.cutoff);
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      LmdSet lmds;
-      WorkCounters work;
-      methods[m]->search(X_WM, lmds, work);
+      const LmdSet lmds = lmds_at(*methods[m], X_WM);
       std::string objections;
       counts[m] += truth.judge(lmds, objections);
       if (!objections.empty())

@@ -3,9 +3,9 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/crosscheck/fcl_crosscheck.h>
 #include <lmdbench/experiment/experiment.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result_file/result_reader.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <judge/exact_distance.h>
 #include <judge/feature_boxes.h>
@@ -98,8 +98,7 @@ class Court {
     NearestExact best;
     for (std::size_t body = 0; body < surfaces_.size(); ++body) {
       const Body& fixed = *run_.scene().fixed[body];
-      const NearestPair pair = nearest_pair(moving(), run_.scene().moving->prepared<Hierarchy>(),
-                                            fixed.surface(), fixed.prepared<Hierarchy>(), X_WM);
+      const NearestPair pair = nearest_pair(*run_.scene().moving, fixed, X_WM);
       const double distance =
           testing::exact_distance(transform.triangle(moving().mesh.triangle(pair.triangle_moving)),
                                   fixed.surface().mesh.triangle(pair.triangle_fixed));

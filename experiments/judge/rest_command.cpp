@@ -81,9 +81,7 @@ int judge_rest(const RestChoice& choice) {
       const RestTruth truth(scene);
       const std::size_t gap_class = class_of(scene);
       for (std::size_t m = 0; m < JUDGED_METHODS.size(); ++m) {
-        LmdSet lmds;
-        WorkCounters work;
-        make_method(JUDGED_METHODS[m], scene.scene)->search(scene.X_WM, lmds, work);
+        const LmdSet lmds = lmds_at(*make_method(JUDGED_METHODS[m], scene.scene), scene.X_WM);
         const RestVerdict verdict = truth.judge(lmds);
         ++counts[m].poses[gap_class];
         for (std::size_t i = 0; i < verdict.faults.size(); ++i) counts[m].faults[i] += verdict.faults[i];

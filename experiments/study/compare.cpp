@@ -156,10 +156,10 @@ void lmdbench::study::add_compare(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<experiments::ComparisonChoice>();
   experiments::add_mesh_options(*command, choice->scene);
   experiments::add_study_options(*command, *choice);
-  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->capture_default_str();
+  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose");
   command->add_option("--path", choice->path,
                       "Recorded path (TUM) instead of random poses: consecutive frames at 1 kHz");
-  command->add_option("--first-frame", choice->first_frame, "First frame of the path")->capture_default_str();
+  command->add_option("--first-frame", choice->first_frame, "First frame of the path");
   command->add_flag("--slow", choice->slow, "Time slow implementations too");
   command->callback([&chosen, command, choice] {
     chosen.work = [choice] { return experiments::compare_times(*choice); };

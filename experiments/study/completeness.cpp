@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 
 /// Is `certified` complete and exact? Its LMDs, distances and points are compared with `exhaustive`
@@ -316,28 +315,20 @@ void lmdbench::study::add_completeness(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand("completeness", "Is certified complete and exact?");
   const auto choice = std::make_shared<completeness::CompletenessChoice>();
   const auto no_pairs = std::make_shared<bool>(false);
-  command->add_option("--pair", choice->pairs, "MOVING:FIXED meshes, may be repeated");
+  command->add_option("--pair", choice->pairs, "MOVING:FIXED meshes, may be repeated")->default_str("");
   command->add_flag("--no-pairs", *no_pairs, "Only the experiments");
   command->add_option("--experiment", choice->experiments,
                       "Experiment file whose path is followed, may be repeated");
-  command
-      ->add_option("--far-poses", choice->far_poses,
-                   "Poses of generated scenes far from the origin, 1e-10 to 1e-5 of it large; 0: none")
-      ->capture_default_str();
-  command
-      ->add_option("--flat-poses", choice->flat_poses,
-                   "Poses of each pair of generated flat shapes, for each kind of coordinates; 0: none")
-      ->capture_default_str();
-  command
-      ->add_option("--rounded-poses", choice->rounded_poses,
-                   "Poses of plates rounded to single precision, for each number of triangles; 0: none")
-      ->capture_default_str();
+  command->add_option("--far-poses", choice->far_poses,
+                      "Poses of generated scenes far from the origin, 1e-10 to 1e-5 of it large; 0: none");
+  command->add_option("--flat-poses", choice->flat_poses,
+                      "Poses of each pair of generated flat shapes, for each kind of coordinates; 0: none");
+  command->add_option("--rounded-poses", choice->rounded_poses,
+                      "Poses of plates rounded to single precision, for each number of triangles; 0: none");
   experiments::add_study_options(*command, *choice);
   command->add_option("--poses-file", choice->poses_file, "Poses of this TUM file instead of random ones");
-  command
-      ->add_option("--truth-stride", choice->truth_stride,
-                   "Compare every so many frames of a path with exhaustive; 0: none")
-      ->capture_default_str();
+  command->add_option("--truth-stride", choice->truth_stride,
+                      "Compare every so many frames of a path with exhaustive; 0: none");
   command->callback([&chosen, command, choice, no_pairs] {
     if (*no_pairs) choice->pairs.clear();
     chosen.work = [choice] { return completeness::judge_completeness(*choice); };

@@ -316,36 +316,27 @@ void add_continuous_force(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<ForceStudy>();
   CLI::App* command = app.add_subcommand(
       "continuous-force", "Is the force continuous where contacts are born and die, and at what cost?");
-  command->add_option("--part", choice->parts, "Parts to measure")->capture_default_str();
-  command->add_option("--scene", choice->scenes, "Of shapes, bunny-hard, bunny-soft")->capture_default_str();
-  command->add_option("--meshes", choice->meshes, "Folder of the built meshes")->capture_default_str();
-  command->add_option("--paths", choice->paths, "Folder of the recorded paths")->capture_default_str();
-  command->add_option("--poses", choice->poses, "Random poses a pair of solids")->capture_default_str();
-  command->add_option("--frames", choice->frames, "Frames of each path, of 1 kHz; soft: every fourth")
-      ->capture_default_str();
-  command->add_option("--refined", choice->refined, "Largest steps of each law that are divided")
-      ->capture_default_str();
-  command->add_option("--events", choice->events, "Births and deaths that are bisected, at most")
-      ->capture_default_str();
-  command->add_option("--loops", choice->loops, "Closed loops")->capture_default_str();
-  command->add_option("--cost-poses", choice->cost_poses, "Poses that are timed")->capture_default_str();
-  command->add_option("--rolls", choice->rolls, "Rolls of the rod in its bore")->capture_default_str();
-  command->add_option("--slope-steps", choice->slope_steps, "Steps across the middle of the bore")
-      ->capture_default_str();
-  command
-      ->add_option("--patch", choice->layered.patch_cutoff,
-                   "Of layered: longest edge of a patch, over the cutoff")
-      ->capture_default_str();
-  command
-      ->add_option("--minimum-area", choice->layered.minimum_area_share,
-                   "Of layered: area of a minimum, over cutoff and diagonal")
-      ->capture_default_str();
+  command->add_option("--part", choice->parts, "Parts to measure");
+  command->add_option("--scene", choice->scenes, "Of shapes, bunny-hard, bunny-soft");
+  command->add_option("--meshes", choice->meshes, "Folder of the built meshes");
+  command->add_option("--paths", choice->paths, "Folder of the recorded paths");
+  command->add_option("--poses", choice->poses, "Random poses a pair of solids");
+  command->add_option("--frames", choice->frames, "Frames of each path, of 1 kHz; soft: every fourth");
+  command->add_option("--refined", choice->refined, "Largest steps of each law that are divided");
+  command->add_option("--events", choice->events, "Births and deaths that are bisected, at most");
+  command->add_option("--loops", choice->loops, "Closed loops");
+  command->add_option("--cost-poses", choice->cost_poses, "Poses that are timed");
+  command->add_option("--rolls", choice->rolls, "Rolls of the rod in its bore");
+  command->add_option("--slope-steps", choice->slope_steps, "Steps across the middle of the bore");
+  command->add_option("--patch", choice->layered.patch_cutoff,
+                      "Of layered: longest edge of a patch, over the cutoff");
+  command->add_option("--minimum-area", choice->layered.minimum_area_share,
+                      "Of layered: area of a minimum, over cutoff and diagonal");
   command->add_flag("--layered", choice->layered_too,
                     "Measure layered also along paths and in the drag: slow");
-  command->add_option("--spots", choice->spots, "Spots of the drag")->capture_default_str();
-  command->add_option("--device", choice->device, "Experiment whose scene, device and hand the drag takes")
-      ->capture_default_str();
-  command->add_option("--seed", choice->seed, "Of poses and loops")->capture_default_str();
+  command->add_option("--spots", choice->spots, "Spots of the drag");
+  command->add_option("--device", choice->device, "Experiment whose scene, device and hand the drag takes");
+  command->add_option("--seed", choice->seed, "Of poses and loops");
   command->add_flag("!--no-exhaustive", choice->exhaustive, "Sums of indices of certified alone");
   command->add_option("--json", choice->json, "Also write the tables to this file");
   command->callback([choice, &chosen] { chosen.work = [choice] { return Report(*choice).run(); }; });

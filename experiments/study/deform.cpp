@@ -289,21 +289,16 @@ void add_deform(CLI::App& app, Run& chosen) {
   auto choice = std::make_shared<DeformChoice>();
   CLI::App* command = app.add_subcommand(
       "deform", "meshes that deform: the set against the truth in every frame, and what following costs");
-  command->add_option("--part", choice->parts, "what to measure")
-      ->check(CLI::IsMember({"truth", "cost"}))
-      ->capture_default_str();
-  command->add_option("--meshes", choice->meshes, "folder of the manifest")->capture_default_str();
-  command->add_option("--mesh", choice->truth_meshes, "meshes that deform, for the truth")
-      ->capture_default_str();
-  command->add_option("--other", choice->other, "mesh that they meet there")->capture_default_str();
-  command->add_option("--large", choice->large, "mesh whose following is timed")->capture_default_str();
+  command->add_option("--part", choice->parts, "what to measure")->check(CLI::IsMember({"truth", "cost"}));
+  command->add_option("--meshes", choice->meshes, "folder of the manifest");
+  command->add_option("--mesh", choice->truth_meshes, "meshes that deform, for the truth");
+  command->add_option("--other", choice->other, "mesh that they meet there");
+  command->add_option("--large", choice->large, "mesh whose following is timed");
   command->add_option("--frames", choice->frames, "frames of each deformation")
-      ->check(CLI::Range(std::size_t{POSES}, std::size_t{1000000}))
-      ->capture_default_str();
+      ->check(CLI::Range(std::size_t{POSES}, std::size_t{1000000}));
   command->add_option("--stride", choice->stride, "frames from one mesh that is prepared anew to the next")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--seed", choice->seed, "of the poses")->capture_default_str();
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", choice->seed, "of the poses");
   command->add_option("--json", choice->json, "file for the numbers");
   command->callback([choice, &chosen] { chosen.work = [choice] { return run_deform(*choice); }; });
 }

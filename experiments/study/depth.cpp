@@ -156,21 +156,14 @@ void add_depth(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand("depth", "What does a frame cost at every depth of overlap?");
   experiments::add_mesh_options(*command, choice->scene);
   experiments::add_scene_options(*command, choice->scene);
-  command->add_option("--cutoff", choice->cutoff, "Cutoff, share of the diagonal")->capture_default_str();
-  command->add_option("--turn", choice->turn, "Turn of the moving mesh about z [rad]")->capture_default_str();
+  command->add_option("--cutoff", choice->cutoff, "Cutoff, share of the diagonal");
+  command->add_option("--turn", choice->turn, "Turn of the moving mesh about z [rad]");
   command->add_option("--frames", choice->frames, "Frames from apart to the deepest")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--passes", choice->passes, "Times the path is run")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--rows", choice->rows, "Rows of the table")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command
-      ->add_option("--truth-stride", choice->truth_stride,
-                   "Compare every so many frames with exhaustive; 0: none")
-      ->capture_default_str();
+      ->check(CLI::PositiveNumber);
+  command->add_option("--passes", choice->passes, "Times the path is run")->check(CLI::PositiveNumber);
+  command->add_option("--rows", choice->rows, "Rows of the table")->check(CLI::PositiveNumber);
+  command->add_option("--truth-stride", choice->truth_stride,
+                      "Compare every so many frames with exhaustive; 0: none");
   command->add_option("--json", choice->json, "Also write the table to this file");
   command->callback([choice, &chosen] { chosen.work = [choice] { return slide_inwards(*choice); }; });
 }

@@ -261,22 +261,16 @@ void lmdbench::study::add_flat(CLI::App& app, Run& chosen) {
       app.add_subcommand("flat", "What does a face on a face cost, however finely it is cut?");
   const auto no_fcl = std::make_shared<bool>(false), parts = std::make_shared<bool>(false);
   const auto times = std::make_shared<flat_parts::PartsTimes>();
-  command->add_option("--meshes", choice->meshes, "Folder of built meshes")->capture_default_str();
-  command->add_option("--bunny", choice->bunny, "Mesh that is grazed for comparison")->capture_default_str();
-  command->add_option("--poses", choice->poses, "Poses a row")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--seed", choice->seed, "Seed of the poses")->capture_default_str();
+  command->add_option("--meshes", choice->meshes, "Folder of built meshes");
+  command->add_option("--bunny", choice->bunny, "Mesh that is grazed for comparison");
+  command->add_option("--poses", choice->poses, "Poses a row")->check(CLI::PositiveNumber);
+  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->check(CLI::PositiveNumber);
+  command->add_option("--seed", choice->seed, "Seed of the poses");
   command->add_flag("--no-fcl", *no_fcl, "Leave FCL out");
   command->add_option("--json", choice->json, "Also write every pose's numbers to this file");
   command->add_flag("--parts", *parts, "Time machine parts on and in each other instead");
   command->add_option("--row", times->row, "With --parts: only those with this in their names");
-  command->add_option("--paths", times->paths, "With --parts: motions a row")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command->add_option("--paths", times->paths, "With --parts: motions a row")->check(CLI::PositiveNumber);
   command->callback([choice, no_fcl, parts, times, &chosen] {
     choice->fcl = !*no_fcl;
     times->seed = choice->seed;

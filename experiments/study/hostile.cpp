@@ -79,16 +79,13 @@ void lmdbench::study::add_hostile(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<HostileChoice>();
   std::vector<std::string> names;
   for (const Motion motion : ALL_MOTIONS) names.emplace_back(name_of(motion));
-  command->add_option("--poses", choice->poses, "Unrelated poses (motion 'none'), 20 a pair of meshes")
-      ->capture_default_str();
-  command
-      ->add_option("--frames", choice->frames, "Frames of the other motions together, 100 a pair of meshes")
-      ->capture_default_str();
-  command->add_option("--seed", choice->seed, "Of the random numbers")->capture_default_str();
+  command->add_option("--poses", choice->poses, "Unrelated poses (motion 'none'), 20 a pair of meshes");
+  command->add_option("--frames", choice->frames,
+                      "Frames of the other motions together, 100 a pair of meshes");
+  command->add_option("--seed", choice->seed, "Of the random numbers");
   command->add_option("--motion", choice->motions, "May be repeated; all without it")
       ->check(CLI::IsMember(names));
-  command->add_option("--complaints", choice->complaints, "Wrong searches that are told")
-      ->capture_default_str();
+  command->add_option("--complaints", choice->complaints, "Wrong searches that are told");
   command->add_option("--json", choice->json, "File that the table is written to as well");
   command->callback([&chosen, command, choice, names] {
     if (choice->motions.empty()) choice->motions = names;

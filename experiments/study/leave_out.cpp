@@ -219,6 +219,7 @@ void add_leave_out(CLI::App& app, Run& chosen) {
   auto* command =
       app.add_subcommand("leave-out", "What each rule of the plan saves, and that it changes no result");
   const auto choice = std::make_shared<LeaveOutChoice>();
+  command->option_defaults()->always_capture_default(false);
   command->add_option("EXPERIMENT", choice->experiments, "experiment files")->required();
   command->add_option("--processes", choice->processes, "processes a setting; medians of all")
       ->capture_default_str()

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   using namespace lmdbench;
   CLI::App app("Studies of the methods: what they miss, what they cost, how costs grow", "lmdbench-study");
   app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();  // for help
   study::Run chosen;
   bool pieces = false;
   app.add_flag("--pieces", pieces,
@@ -35,6 +36,10 @@ int main(int argc, char** argv) {
   study::add_parts(app, chosen);
   study::add_roles(app, chosen);
   study::add_worlds(app, chosen);
+  // An empty list is none.
+  for (CLI::App* command : app.get_subcommands({}))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_default_str() == "[]") option->default_str("");
   return experiments::run_program(app, argc, argv, [&] {
     if (!pieces) return chosen.work();
     fmt::print("{}\n", study::pieces_json(app, chosen));

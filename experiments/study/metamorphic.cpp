@@ -112,19 +112,17 @@ void lmdbench::study::add_metamorphic(CLI::App& app, Run& chosen) {
   std::vector<std::string> generators = {"rest"}, names;
   for (const auto& [name, generator] : parts::HARD_GENERATORS) generators.push_back(name);
   for (const Change& change : metamorphic_changes()) names.emplace_back(change.name);
-  command->add_option("--poses", choice->poses, "Of each kind of parts")->capture_default_str();
-  command->add_option("--seed", choice->seed, "Of the random numbers")->capture_default_str();
+  command->add_option("--poses", choice->poses, "Of each kind of parts");
+  command->add_option("--seed", choice->seed, "Of the random numbers");
   command
       ->add_option("--generator", choice->generator,
                    "rest (fits with gaps of 0 to what is seen), parts, solids or shapes (as of `parts`)")
-      ->check(CLI::IsMember(generators))
-      ->capture_default_str();
+      ->check(CLI::IsMember(generators));
   command->add_option("--parts", choice->parts,
                       "A fit or kind of the generator, may be repeated; all without it");
   command->add_option("--change", choice->changes, "May be repeated; all without it")
       ->check(CLI::IsMember(names));
-  command->add_option("--complaints", choice->complaints, "Pairs at fault that are told")
-      ->capture_default_str();
+  command->add_option("--complaints", choice->complaints, "Pairs at fault that are told");
   command->add_option("--out", choice->out, "Folder for the meshes and the pose of the first pair at fault");
   command->add_option("--json", choice->json, "File that the table is written to as well");
   command->callback([&chosen, command, choice] {

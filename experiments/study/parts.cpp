@@ -87,10 +87,9 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
   const auto flush = std::make_shared<bool>(false);
   const auto generator = std::make_shared<std::string>("parts");
   choice->study.poses = 100;
-  command
-      ->add_option("--poses", choice->study.poses, "Poses of each kind of parts in each kind of coordinates")
-      ->capture_default_str();
-  command->add_option("--seed", choice->study.seed, "Of the random numbers")->capture_default_str();
+  command->add_option("--poses", choice->study.poses,
+                      "Poses of each kind of parts in each kind of coordinates");
+  command->add_option("--seed", choice->study.seed, "Of the random numbers");
   command->add_option("--kind", choice->study.kinds,
                       "Such as 'ring on ring', may be repeated; all without it");
   command
@@ -98,12 +97,11 @@ void lmdbench::study::add_parts(CLI::App& app, Run& chosen) {
           "--generator", *generator,
           "Without --kind: parts (drawn machine parts), solids (random ones) or shapes (turned, swept, slit, "
           "scanned)")
-      ->check(CLI::IsMember(parts::HARD_GENERATORS))
-      ->capture_default_str();
+      ->check(CLI::IsMember(parts::HARD_GENERATORS));
   command->add_option("--coordinates", *coordinates,
                       "exact, turned, rounded or recut, may be repeated; all without it");
   command->add_flag("--flush", *flush, "Only poses without tilt, whose flat contacts are exact");
-  command->add_option("--complaints", choice->complaints, "Wrong poses that are told")->capture_default_str();
+  command->add_option("--complaints", choice->complaints, "Wrong poses that are told");
   command->add_option("--json", choice->json, "File that the table is written to as well");
   command->callback([&chosen, command, choice, coordinates, flush, generator] {
     if (*flush) choice->study.family = parts::PoseFamily::FLUSH;

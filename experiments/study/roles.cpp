@@ -172,12 +172,10 @@ void add_roles(CLI::App& app, Run& chosen) {
   auto choice = std::make_shared<RolesChoice>();
   CLI::App* command = app.add_subcommand(
       "roles", "what the device loop, local tracking and the global thread cost in a closed loop");
-  command->add_option("--experiment", choice->experiment, "experiment in a closed loop")
-      ->capture_default_str();
+  command->add_option("--experiment", choice->experiment, "experiment in a closed loop");
   command->add_option("--set", choice->sets, "/json/pointer=value, a value of the experiment");
   command->add_option("--repetitions", choice->repetitions, "how often every method runs")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 1000));
   command->add_option("--json", choice->json, "file for the numbers");
   command->callback([choice, &chosen] { chosen.work = [choice] { return run_roles(*choice); }; });
 }

@@ -300,17 +300,13 @@ int measure_scaling(const ScalingChoice& choice) {
 void lmdbench::study::add_scaling(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand("scaling", "How run time grows with triangles, cutoff and gap");
   const auto choice = std::make_shared<scaling::ScalingChoice>();
-  command->add_option("--meshes", choice->meshes, "Folder of built meshes")->capture_default_str();
-  command->add_option("--diagonal", choice->diagonal, "Diagonal of all meshes [m]")->capture_default_str();
-  command->add_option("--gap", choice->gap, "Gap, share of the diagonal")->capture_default_str();
-  command->add_option("--cutoff", choice->cutoff, "Cutoff, share of the diagonal")->capture_default_str();
-  command->add_option("--poses", choice->poses, "Random poses a point")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_option("--seed", choice->seed, "Seed of poses and slides")->capture_default_str();
+  command->add_option("--meshes", choice->meshes, "Folder of built meshes");
+  command->add_option("--diagonal", choice->diagonal, "Diagonal of all meshes [m]");
+  command->add_option("--gap", choice->gap, "Gap, share of the diagonal");
+  command->add_option("--cutoff", choice->cutoff, "Cutoff, share of the diagonal");
+  command->add_option("--poses", choice->poses, "Random poses a point")->check(CLI::PositiveNumber);
+  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->check(CLI::PositiveNumber);
+  command->add_option("--seed", choice->seed, "Seed of poses and slides");
   command->add_option("--only", choice->only,
                       "Only these studies: bunny, armadillo, bunny-subdivided, dragon, cutoff, gap");
   command->add_flag("--large", choice->large,

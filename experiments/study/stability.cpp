@@ -76,6 +76,7 @@ void add_stability(CLI::App& app, Run& chosen) {
   auto* command =
       app.add_subcommand("stability", "Closed loops over stiffness and age of the LMD set: raw runs");
   const auto choice = std::make_shared<StabilityChoice>();
+  command->option_defaults()->always_capture_default(false);
   command->add_option("experiments", choice->experiments, "experiment files whose loop is closed")
       ->required();
   command->add_option("--set", choice->overrides, "override a value: /json/pointer=value; repeatable")

@@ -332,46 +332,33 @@ void add_worlds(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand(
       "worlds", "What do thousands of instances of a mesh cost, and is every set complete?");
   command->add_option("--part", choice->parts, "cost, completeness, broad-phase, slack, pile or pile-slack")
-      ->check(CLI::IsMember({"cost", "completeness", "broad-phase", "slack", "pile", "pile-slack"}));
-  command->add_option("--mesh", choice->mesh, "What moves and what stands")->capture_default_str();
-  command->add_option("--meshes", choice->meshes, "Folder of the manifest")->capture_default_str();
-  command->add_option("--path", choice->path, "Path along the instance in the middle")->capture_default_str();
-  command->add_option("--diagonal", choice->diagonal, "Of the mesh [m]")->capture_default_str();
-  command->add_option("--cutoff", choice->cutoff, "Share of the diagonal")->capture_default_str();
+      ->check(CLI::IsMember({"cost", "completeness", "broad-phase", "slack", "pile", "pile-slack"}))
+      ->default_str("");
+  command->add_option("--mesh", choice->mesh, "What moves and what stands");
+  command->add_option("--meshes", choice->meshes, "Folder of the manifest");
+  command->add_option("--path", choice->path, "Path along the instance in the middle");
+  command->add_option("--diagonal", choice->diagonal, "Of the mesh [m]");
+  command->add_option("--cutoff", choice->cutoff, "Share of the diagonal");
   command->add_option("--instances", choice->cost.counts, "Sizes of the worlds; ratios are to the first")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--spacing", choice->cost.spacing, "Of the instances, in diagonals")
-      ->capture_default_str();
-  command->add_option("--frames", choice->frames, "Of the path")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->check(CLI::PositiveNumber);
+  command->add_option("--spacing", choice->cost.spacing, "Of the instances, in diagonals");
+  command->add_option("--frames", choice->frames, "Of the path")->check(CLI::PositiveNumber);
   command->add_option("--world-frames", choice->world_frames, "Of each world whose completeness is judged")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->check(CLI::PositiveNumber);
   command->add_option("--world", choice->worlds, "Only this one is judged, by its name in the table");
-  command->add_option("--world-cutoff", choice->world_cutoffs, "There [m]; meshes are about 1 m large")
-      ->capture_default_str();
-  command->add_option("--spheres", choice->pile.counts, "Sizes of the piles")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--swing-speed", choice->swing_speeds, "Of the spheres where they jostle [m/s]")
-      ->capture_default_str();
+  command->add_option("--world-cutoff", choice->world_cutoffs, "There [m]; meshes are about 1 m large");
+  command->add_option("--spheres", choice->pile.counts, "Sizes of the piles")->check(CLI::PositiveNumber);
+  command->add_option("--swing-speed", choice->swing_speeds, "Of the spheres where they jostle [m/s]");
   command->add_option("--pile-frames", choice->pile.frames, "Of each motion of a pile")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->check(CLI::PositiveNumber);
   command->add_option("--pile-passes", choice->pile.passes, "Times that they are run")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--pile-slack", choice->pile_slacks, "Slacks of movers, in their radii")
-      ->capture_default_str();
-  command->add_option("--pack-share", choice->pack_shares, "Shares of the movers")->capture_default_str();
+      ->check(CLI::PositiveNumber);
+  command->add_option("--pile-slack", choice->pile_slacks, "Slacks of movers, in their radii");
+  command->add_option("--pack-share", choice->pack_shares, "Shares of the movers");
   command->add_option("--passes", choice->cost.passes, "Times that frames are run")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--slack", choice->slacks, "Slacks of the broad phase, in radii of what moves")
-      ->capture_default_str();
-  command->add_option("--seed", choice->cost.seed, "Of all that is random")->capture_default_str();
+      ->check(CLI::PositiveNumber);
+  command->add_option("--slack", choice->slacks, "Slacks of the broad phase, in radii of what moves");
+  command->add_option("--seed", choice->cost.seed, "Of all that is random");
   command->add_option("--json", choice->json, "Also write the tables to this file");
   command->callback([choice, &chosen] { chosen.work = [choice] { return study_worlds(*choice); }; });
 }

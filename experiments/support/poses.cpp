@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/tum_file.h>
-#include <lmdbench/snch/first_approach.h>
 
 #include <support/poses.h>
 
@@ -22,9 +22,7 @@ Pose grazing_pose(const Body& moving, const Body& fixed, double gap, Random& ran
   const Vec3 from_W = -random.direction();
   X_WM.translation =
       bounding_box_centre(fixed.surface().mesh) - X_WM.rotation * bounding_box_centre(moving.surface().mesh);
-  const double displacement = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                             fixed.prepared<Hierarchy>(), X_WM, from_W, gap, GAP_TOLERANCE)
-                                  .displacement;
+  const double displacement = first_approach(moving, fixed, X_WM, from_W, gap, GAP_TOLERANCE).displacement;
   if (!std::isfinite(displacement))
     throw std::runtime_error("no grazing pose between " + moving.name() + " and " + fixed.name() +
                              ": the approach line passes without coming near");

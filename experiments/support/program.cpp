@@ -14,21 +14,21 @@
 namespace lmdbench::experiments {
 
 void add_mesh_options(CLI::App& app, SceneChoice& scene) {
-  app.add_option("--moving", scene.moving, "Moving mesh")->capture_default_str();
-  app.add_option("--fixed", scene.fixed, "Fixed mesh")->capture_default_str();
+  app.add_option("--moving", scene.moving, "Moving mesh");
+  app.add_option("--fixed", scene.fixed, "Fixed mesh");
 }
 
 void add_scene_options(CLI::App& app, SceneChoice& scene) {
-  app.add_option("--meshes", scene.meshes, "Folder of built meshes")->capture_default_str();
-  app.add_option("--diagonal", scene.diagonal, "Diagonal of both meshes [m]")->capture_default_str();
-  app.add_option("--gap", scene.gap, "Gap, share of the diagonal")->capture_default_str();
+  app.add_option("--meshes", scene.meshes, "Folder of built meshes");
+  app.add_option("--diagonal", scene.diagonal, "Diagonal of both meshes [m]");
+  app.add_option("--gap", scene.gap, "Gap, share of the diagonal");
 }
 
 void add_study_options(CLI::App& app, StudyChoice& choice) {
   add_scene_options(app, choice.scene);
-  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal")->capture_default_str();
-  app.add_option("--poses", choice.poses, "How many poses")->capture_default_str();
-  app.add_option("--seed", choice.seed, "Seed of the poses")->capture_default_str();
+  app.add_option("--cutoff", choice.cutoffs, "Cutoffs, shares of the diagonal");
+  app.add_option("--poses", choice.poses, "How many poses");
+  app.add_option("--seed", choice.seed, "Seed of the poses");
   app.add_option("--json", choice.json, "Also write the tables to this file");
 }
 

@@ -8,10 +8,10 @@
 #include "support/scratch_directory.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/files.h>
 #include <sys/stat.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <thread>
@@ -23,14 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::message_of;
+using testing::read_text;
 using testing::ScratchDirectory;
 
 const OutputKind OURS{"note", [](const fs::path& file) { return file_begins_with(file, "ours"); }};
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 class OutputGuard : public ::testing::Test {
  protected:
@@ -80,8 +76,8 @@ TEST(AtomicFile, LeavesNoPartAndFollowsNoLink) {
   folder.write("victim", "mine");
   fs::create_symlink(folder / "victim", folder / "out");
   write_file_atomically(folder / "out", "new");
-  EXPECT_EQ(text_of(folder / "victim"), "mine");
-  EXPECT_EQ(text_of(folder / "out"), "new");
+  EXPECT_EQ(read_text(folder / "victim"), "mine");
+  EXPECT_EQ(read_text(folder / "out"), "new");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2)
       << "no part left";
 }
@@ -94,7 +90,7 @@ TEST(AtomicFile, WritersOfOneNameDoNotMeet) {
   });
   for (int i = 0; i < 20; ++i) write_file_atomically(folder / "out", b);
   other.join();
-  const std::string left = text_of(folder / "out");
+  const std::string left = read_text(folder / "out");
   EXPECT_TRUE(left == a || left == b);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }

@@ -5,7 +5,6 @@
 #include <lmdbench/base/file_hash.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/catalogue/off_file.h>
-#include <lmdbench/catalogue/shape_recipe.h>
 #include <lmdbench/catalogue/shapes.h>
 
 #include "support/message_of.h"

@@ -18,7 +18,6 @@
 #include <limits>
 #include <random>
 #include <string>
-#include <utility>
 
 namespace lmdbench {
 namespace {

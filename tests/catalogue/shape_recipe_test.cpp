@@ -26,12 +26,13 @@ TriangleMesh make(const std::string& recipe) {
   return make_shape(json::parse(recipe), "m.json", "/meshes/x/shape");
 }
 
+void expect_same(const std::string& recipe, const TriangleMesh& wanted) {
+  const TriangleMesh made = make(recipe);
+  EXPECT_EQ(made.vertices, wanted.vertices) << recipe;
+  EXPECT_EQ(made.triangles, wanted.triangles) << recipe;
+}
+
 TEST(ShapeRecipeTest, PassesItsParametersOn) {
-  const auto expect_same = [](const std::string& recipe, const TriangleMesh& wanted) {
-    const TriangleMesh made = make(recipe);
-    EXPECT_EQ(made.vertices, wanted.vertices) << recipe;
-    EXPECT_EQ(made.triangles, wanted.triangles) << recipe;
-  };
   expect_same(R"({"kind":"sphere","radius":0.5,"subdivisions":2})", make_sphere(0.5, 2));
   expect_same(R"({"kind":"box","size":[1,2,3],"cells":2})", make_box({1, 2, 3}, 2));
   expect_same(R"({"kind":"torus","ring_radius":0.4,"tube_radius":0.1,"ring_cells":8,"tube_cells":5})",
@@ -61,11 +62,6 @@ TEST(ShapeRecipeTest, PassesItsParametersOn) {
 }
 
 TEST(ShapeRecipeTest, MakesFlawsInOtherShapes) {
-  const auto expect_same = [](const std::string& recipe, const TriangleMesh& wanted) {
-    const TriangleMesh made = make(recipe);
-    EXPECT_EQ(made.vertices, wanted.vertices) << recipe;
-    EXPECT_EQ(made.triangles, wanted.triangles) << recipe;
-  };
   const std::string of = R"("of":{"kind":"l-block","size":1}})";
   expect_same(R"({"kind":"holes","every":3,)" + of, with_holes(make_l_block(1), 3));
   expect_same(R"({"kind":"duplicates","every":4,)" + of, with_duplicates(make_l_block(1), 4));

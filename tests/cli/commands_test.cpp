@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/cli/app.h>
 #include <lmdbench/cli/examples.h>
 
 #include "program.h"
@@ -11,7 +10,6 @@
 #include <support/source_directory.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <utility>

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/sanitizers.h>
+
 #include "program.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +10,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,7 @@ using ::testing::Not;
 const std::string SHORT = SHAPES + "--set /frames=20 --set /driver/repetitions=1 ";
 
 /// Limit of processor time of a case: it does not depend on the load of the machine.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const std::string PROCESSOR_SECONDS = "300";
-#else
-const std::string PROCESSOR_SECONDS = "20";
-#endif
+const std::string PROCESSOR_SECONDS = IS_SANITIZED ? "300" : "20";
 
 class HostileInput : public ::testing::Test {
  protected:

@@ -2,30 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <support/committed.h>
+#include <support/files.h>
 #include <support/scratch_directory.h>
-#include <support/source_directory.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 /// Running the built program as a user would.
 namespace lmdbench::testing {
-
-inline std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// Exit codes that scripts rely on.
 inline constexpr int USAGE = 2;
 inline constexpr int INPUT_DATA = 3;
 inline constexpr int ENVIRONMENT = 4;
 
-inline const std::string SHAPES_FILE = LMDBENCH_SOURCE_DIR "/experiments/shapes.json";
 /// An argument for a shell's command, followed by a blank.
 inline const std::string SHAPES = "'" + SHAPES_FILE + "' ";
 

@@ -25,9 +25,7 @@ TEST(FclTriangleDistance, IsRightOnTrianglesOfUnitSize) {
 }
 
 TEST(FclTriangleDistance, TakesTheMovingTriangleInItsOwnFrame) {
-  Pose X_WM;
-  X_WM.translation = {0.0, 0.0, 0.25};
-  X_WM.rotation = Eigen::AngleAxisd(0.5, Vec3::UnitZ());
+  const Pose X_WM{Vec3(0.0, 0.0, 0.25), Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vec3::UnitZ()))};
   for (const double scale : {1.0, 3.0}) {
     const FclTriangleDistance result =
         fcl_triangle_distance(standing_triangle(1.0, 0.0), floor_triangle(1.0), X_WM, scale);

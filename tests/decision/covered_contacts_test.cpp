@@ -13,9 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -123,10 +123,8 @@ TEST(Decide, ACornerOverAFaceItsEdgeAndItsCorner) {
 
 /// A tetrahedron on its tip at the origin, whose cone has nearly all downward directions.
 TriangleMesh needle() {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {0.02, 0, 1}, {-0.01, 0.017, 1}, {-0.01, -0.017, 1}};
-  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
-  return mesh;
+  return {{{0, 0, 0}, {0.02, 0, 1}, {-0.01, 0.017, 1}, {-0.01, -0.017, 1}},
+          {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
 }
 
 TEST(Decide, TheEndOfAHolesSideIsNoPlaceToStopAt) {
@@ -175,14 +173,23 @@ TEST(Decide, ACornerBelowAFaceHasNoContactWithIt) {
 
 /// Bar along x with its sharp edge down, along the x axis from -1 to 1.
 TriangleMesh edge_down() {
-  TriangleMesh mesh;
-  mesh.vertices = {{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}};
-  mesh.triangles = {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}};
-  return mesh;
+  return {{{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}},
+          {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}}};
 }
 /// The same below, edge up.
 TriangleMesh edge_up() {
   return testing::placed(edge_down(), {Vec3::Zero(), Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)});
+}
+
+/// Contacts of a kind nearer than 0.4, of a set that is sound.
+std::vector<Contact> near_contacts(ShapeScene& scene, const Pose& pose, const std::string& kind) {
+  const ShapePair pair = scene.at(pose);
+  const ContactSet set = scene.contacts(pair);
+  expect_sound(pair, set);
+  std::vector<Contact> found;
+  for (const Contact& c : set.contacts)
+    if (kind_of(c) == kind && c.distance < 0.4) found.push_back(c);
+  return found;
 }
 
 TEST(Decide, ChainsThatCrossUpToTheirEnds) {
@@ -230,15 +237,7 @@ TEST(Decide, ChainsThatPassSideBySideShareNothing) {
 TEST(Decide, ParallelChainsShareWhereTheyFaceEachOther) {
   for (const Pose& whole : {Pose{}, testing::pose_of_seed(5)}) {
     ShapeScene scene(edge_down(), testing::placed(edge_up(), whole));
-    const auto segments = [&](const Pose& pose) {
-      const ShapePair pair = scene.at(whole * pose);
-      const ContactSet set = scene.contacts(pair);
-      expect_sound(pair, set);
-      std::vector<Contact> found;
-      for (const Contact& c : set.contacts)
-        if (kind_of(c) == "EE1" && c.distance < 0.4) found.push_back(c);
-      return found;
-    };
+    const auto segments = [&](const Pose& pose) { return near_contacts(scene, whole * pose, "EE1"); };
     for (const double shift : {0.0, 0.5, -1.25, 1.999, 2.0 - 1e-9}) {
       const auto found = segments(moved(shift, 0.0, 0.05));
       ASSERT_EQ(found.size(), 1u) << shift;
@@ -268,12 +267,8 @@ TEST(Decide, AChainOverARegionSharesEachPartOfIt) {
   for (const Pose& whole : {Pose{}, testing::pose_of_seed(6)}) {
     ShapeScene scene(edge_down(), testing::placed(teeth, whole));
     const auto segments = [&](const Pose& pose) {
-      const ShapePair pair = scene.at(whole * pose);
-      const ContactSet set = scene.contacts(pair);
-      expect_sound(pair, set);
       std::vector<double> lengths;
-      for (const Contact& c : set.contacts)
-        if (kind_of(c) == "EF1" && c.distance < 0.4) lengths.push_back(c.measure);
+      for (const Contact& c : near_contacts(scene, whole * pose, "EF1")) lengths.push_back(c.measure);
       std::ranges::sort(lengths);
       return lengths;
     };
@@ -305,15 +300,7 @@ TEST(Decide, RegionsShareEachConnectedPartOfTheirOverlap) {
     // Two feet over a table.
     ShapeScene scene(translated(make_two_boxes({0.25, 0.5, 0.5}, 0.5), Vec3(0.0, 0.0, 0.25)),
                      testing::placed(table(), whole));
-    const auto polygons = [&](const Pose& pose) {
-      const ShapePair pair = scene.at(whole * pose);
-      const ContactSet set = scene.contacts(pair);
-      expect_sound(pair, set);
-      std::vector<Contact> found;
-      for (const Contact& c : set.contacts)
-        if (kind_of(c) == "FF2" && c.distance < 0.4) found.push_back(c);
-      return found;
-    };
+    const auto polygons = [&](const Pose& pose) { return near_contacts(scene, whole * pose, "FF2"); };
     auto found = polygons(moved(0.1, 0.2, 0.01));
     ASSERT_EQ(found.size(), 2u) << "a region a foot: no face joins them";
     for (const Contact& c : found) {

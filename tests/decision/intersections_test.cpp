@@ -4,6 +4,7 @@
 #include <lmdbench/decision/intersections.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -78,9 +79,8 @@ TEST(CornerGroups, ForgottenCornersJoinNothing) {
 class IntersectionsTest : public ::testing::Test {
  protected:
   IntersectionsTest() {
-    TriangleMesh strip;
-    strip.vertices = {{0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {2, 1, 0}, {2, 0, 0}};
-    strip.triangles = {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}};
+    const TriangleMesh strip{{{0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {2, 1, 0}, {2, 0, 0}},
+                             {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}};
     scene_ = testing::make_scene(strip, strip, 1.0);
     scene_.fixed.push_back(scene_.fixed[0]);
   }
@@ -133,12 +133,7 @@ TEST_F(IntersectionsTest, TheSetAloneDecides) {
   const LmdSet expected = contacts(pieces);
   for (int i = 0; i < 20; ++i) {
     std::shuffle(pieces.begin(), pieces.end(), random);
-    const LmdSet again = contacts(pieces);
-    ASSERT_EQ(again.size(), expected.size());
-    for (std::size_t k = 0; k < again.size(); ++k) {
-      EXPECT_EQ(again[k].point_moving, expected[k].point_moving) << "bit for bit";
-      EXPECT_TRUE(same_feature_pair(again[k], expected[k]));
-    }
+    testing::expect_same_lmds(contacts(pieces), expected);
   }
   // A pair in the list twice counts once.
   std::vector<Intersection> twice = pieces;

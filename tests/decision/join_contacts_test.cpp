@@ -17,7 +17,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 #include <utility>
 #include <vector>
 

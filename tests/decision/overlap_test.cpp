@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/decision/overlap.h>
 
 #include <boost/multiprecision/cpp_int.hpp>

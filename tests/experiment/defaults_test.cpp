@@ -12,11 +12,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <support/files.h>
 #include <support/scratch_directory.h>
 #include <support/source_directory.h>
-
-#include <fstream>
-#include <iterator>
 
 namespace lmdbench {
 namespace {
@@ -91,11 +89,6 @@ TEST(Defaults, TheyAreInTheSummaryAndTheScene) {
   EXPECT_EQ(summary.methods.front().recall, 1.0);
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 /// ASCII STL and OBJ of a box with the given sides.
 const char* const BOX_OFF =
     "OFF\n8 12 0\n0 0 0\n40 0 0\n40 60 0\n0 60 0\n0 0 20\n40 0 20\n40 60 20\n0 60 20\n"
@@ -109,7 +102,7 @@ TEST(NewExperiment, RunsGrazesAndNeitherPenetratesNorMisses) {
       new_experiment(box, "sphere", scratch / "new/one", LMDBENCH_SOURCE_DIR "/meshes");
   EXPECT_EQ(made.name, "box-mm-sphere");
   write_new_experiment(made);
-  const auto json = nlohmann::json::parse(text_of(made.experiment_file));
+  const auto json = nlohmann::json::parse(testing::read_text(made.experiment_file));
   EXPECT_EQ(json["moving"]["scale"], 0.001) << "74.8 units are no metres";
   EXPECT_FALSE(json["fixed"][0].contains("scale"));
   const Experiment experiment = load_experiment(made.experiment_file, {"/driver/repetitions=1"});
@@ -129,7 +122,7 @@ TEST(NewExperiment, NeverReplacesAFile) {
   const NewExperiment made = new_experiment("cube", "cube", scratch.path(), LMDBENCH_SOURCE_DIR "/meshes");
   scratch.write("cube-cube.path.json", "mine");
   EXPECT_THROW(write_new_experiment(made), UsageError);
-  EXPECT_EQ(text_of(made.specification_file), "mine");
+  EXPECT_EQ(testing::read_text(made.specification_file), "mine");
   EXPECT_FALSE(std::filesystem::exists(made.experiment_file));
 }
 

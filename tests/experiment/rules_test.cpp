@@ -14,7 +14,6 @@
 #include <support/source_directory.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 

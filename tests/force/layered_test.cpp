@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -40,9 +39,7 @@ class Rendered {
 
 std::vector<SurfaceSample> samples_of(const Scene& scene, const Pose& X_WM) {
   const auto method = make_method("certified", scene);
-  CriticalSet critical;
-  WorkCounters ignored;
-  method->find_critical(X_WM, critical, ignored);
+  const CriticalSet critical = critical_at(*method, X_WM);
   MergeFinder descents(scene);
   std::vector<Merge> merges;
   descents.find(X_WM, critical, merges);
@@ -73,9 +70,7 @@ TEST(SurfaceSamples, EachBelongsToTheMinimumBelowIt) {
   const Scene scene = testing::make_scene(make_box({3.0, 0.2, 0.2}, 4), bumps, 0.1);
   const Pose pose = testing::moved(0.0, 0.0, 0.3 + 0.1 + 0.04);
   const auto method = make_method("certified", scene);
-  CriticalSet critical;
-  WorkCounters ignored;
-  method->find_critical(pose, critical, ignored);
+  const CriticalSet critical = critical_at(*method, pose);
   const auto samples = samples_of(scene, pose);
   ASSERT_GT(samples.size(), 20u);
   for (const SurfaceSample& sample : samples)

@@ -3,13 +3,11 @@
 #include "json_mutation.h"
 #include "targets.h"
 #include <gtest/gtest.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <random>
 #include <string>
@@ -38,16 +36,10 @@ constexpr std::array<FuzzTarget, 11> TARGETS{{{"off", &broken_off, false},
                                               {"journal", &broken_journal, false}}};
 
 std::vector<std::string> corpus_of(const FuzzTarget& target) {
-  const std::filesystem::path folder =
-      std::filesystem::path(LMDBENCH_SOURCE_DIR "/tests/fuzz/corpus") / target.name;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
   std::vector<std::string> contents;
-  for (const auto& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    contents.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-  }
+  for (const auto& file :
+       files_in(std::filesystem::path(LMDBENCH_SOURCE_DIR "/tests/fuzz/corpus") / target.name))
+    contents.push_back(read_text(file));
   return contents;
 }
 

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <optional>
 #include <string>
-#include <string_view>
 
 /// libFuzzer's entries of one target, whose check the macro LMDBENCH_FUZZ_CHECK names:
 /// lmdbench_off_fuzz CORPUS. With LMDBENCH_FUZZ_JSON half of the mutations keep the text JSON.

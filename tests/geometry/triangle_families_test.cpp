@@ -9,8 +9,6 @@
 #include <triangles/brute_force_distance.h>
 
 #include <cmath>
-#include <limits>
-#include <string>
 
 namespace lmdbench {
 namespace {

@@ -10,7 +10,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace lmdbench {

@@ -55,9 +55,7 @@ TEST(NearFrame, MovesMeshesPosesAndPointsThereAndBack) {
       EXPECT_EQ(frame.scene().cutoff, 0.25);
 
       // A quarter turn about z and 1 along x, for meshes at the origin.
-      Pose X_NN;
-      X_NN.rotation = Eigen::Quaterniond(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
-      X_NN.translation = Vec3(1.0, 0.0, 0.0);
+      const Pose X_NN{Vec3(1.0, 0.0, 0.0), Eigen::Quaterniond(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5))};
       Pose X_WM = X_NN;
       X_WM.translation += offset_W - X_NN.rotation * offset_M;
       EXPECT_LE((frame.to_near(X_WM).translation - X_NN.translation).norm(), 1e-6) << "rounding at 1e9";

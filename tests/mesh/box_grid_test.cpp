@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 #include <vector>
 
 namespace lmdbench {

@@ -81,9 +81,7 @@ TEST(SurfaceTest, FeaturesOfATriangle) {
 }
 
 TEST(SurfaceTest, FlagsBoundaryAndNonManifoldEdges) {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
-  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}}};
   const Surface sheet = build_surface(mesh);
   EXPECT_FALSE(sheet.is_boundary({FeatureKind::EDGE, 0}));
   EXPECT_FALSE(sheet.edge_is_non_manifold[0]);
@@ -98,9 +96,8 @@ TEST(SurfaceTest, FlagsBoundaryAndNonManifoldEdges) {
 }
 
 TEST(SurfaceTest, MarksTheEndsOfNonManifoldEdges) {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
-  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}};
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
+                          {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}};
   const Surface surface = build_surface(mesh);
   EXPECT_THAT(surface.vertex_has_non_manifold_edge, ElementsAre(true, true, false, false, false));
   EXPECT_THAT(surface.vertex_is_boundary, ElementsAre(true, true, true, true, true));
@@ -130,9 +127,8 @@ std::vector<bool> counted_several_fans(const TriangleMesh& mesh) {
 }
 
 TEST(SurfaceTest, KnowsWhereTrianglesAreSeveralFans) {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}};
-  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}};
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}},
+                    {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}}};
   const Surface two_solids = build_surface(mesh);
   EXPECT_THAT(two_solids.vertex_has_several_fans,
               ElementsAre(true, false, false, false, false, false, false));
@@ -209,9 +205,7 @@ TEST(SurfaceTest, NeighboursAreTheOtherEndsOfEdges) {
 }
 
 TEST(SurfaceTest, TrianglesWithoutAreaAddNothing) {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 0, 2}};
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 3, 1}, {0, 0, 2}}};
   const Surface surface = build_surface(mesh);
   EXPECT_EQ(surface.face_normals[1], Vec3::Zero());
   EXPECT_EQ(surface.face_normals[2], Vec3::Zero());

@@ -111,9 +111,8 @@ TEST(ValidityTest, SeesNonManifoldEdgesAndVertices) {
 }
 
 TEST(ValidityTest, CountsDegenerateAndDuplicateTriangles) {
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {{0, 1, 3}, {3, 0, 1}, {1, 0, 3}, {0, 1, 2}, {1, 1, 3}};
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}},
+                          {{0, 1, 3}, {3, 0, 1}, {1, 0, 3}, {0, 1, 2}, {1, 1, 3}}};
   const ValidityReport report = report_of(mesh);
   EXPECT_EQ(report.duplicate_triangles, 2);
   EXPECT_EQ(report.degenerate_triangles, 2);

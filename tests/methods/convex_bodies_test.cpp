@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/contact_tolerance.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,6 @@
 #include <support/scenes.h>
 
 #include <cstdlib>
-#include <string>
 
 /// Two convex bodies that are apart have exactly one LMD at every pose, at their distance.
 namespace lmdbench {
@@ -49,9 +48,7 @@ TEST(ConvexBodies, HaveOneLmdAtEveryPose) {
     for (int k = 0; k < 20; ++k) {
       Pose pose = testing::flush_pose(moving, fixed, random);
       if (is_turned) pose = whole * pose;
-      const double apart =
-          nearest_pair(a.surface(), a.prepared<Hierarchy>(), b.surface(), b.prepared<Hierarchy>(), pose)
-              .distance;
+      const double apart = nearest_pair(a, b, pose).distance;
       const ContactTolerance tolerance =
           ContactTolerance::of(a.surface(), a.prepared<ShapeComplex>(), b.surface(),
                                b.prepared<ShapeComplex>(), RigidTransform(pose), scene.cutoff);
@@ -61,9 +58,7 @@ TEST(ConvexBodies, HaveOneLmdAtEveryPose) {
       }
       ++asked;
       for (const auto& method : {truth.get(), certified.get()}) {
-        LmdSet lmds;
-        WorkCounters counters;
-        method->search(pose, lmds, counters);
+        const LmdSet lmds = lmds_at(*method, pose);
         const bool right = lmds.size() == 1 && lmds[0].distance >= apart - 4.0 * tolerance.rounding &&
                            lmds[0].distance <= apart + tolerance.widest_tie(apart);
         EXPECT_TRUE(right) << method->description().name << ", scene " << seed << " pose " << k << ", apart "

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <support/closed_solids.h>
 #include <support/convex_bodies.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -63,15 +64,6 @@ std::string text(const CriticalSet& set) {
   return result;
 }
 
-bool same_bits(const LmdSet& a, const LmdSet& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const Lmd& x, const Lmd& y) {
-           return x.distance == y.distance && x.point_moving == y.point_moving &&
-                  x.point_fixed == y.point_fixed &&
-                  (x.direction == y.direction || !x.direction.allFinite()) && same_feature_pair(x, y) &&
-                  x.triangle_moving == y.triangle_moving && x.triangle_fixed == y.triangle_fixed;
-         });
-}
-
 TEST(CriticalPairs, IndicesAddUpToTheEulerCharacteristics) {
   const auto all = solids();
   ASSERT_FALSE(methods_with_critical_pairs().empty());
@@ -84,16 +76,12 @@ TEST(CriticalPairs, IndicesAddUpToTheEulerCharacteristics) {
         for (int k = 0; k < pose_count(); ++k) {
           const Pose pose =
               testing::grazing_pose(scene, std::pow(10.0, -4.0 * testing::uniform(random)), random);
-          CriticalSet critical;
-          WorkCounters counters;
-          method->find_critical(pose, critical, counters);
+          const CriticalSet critical = critical_at(*method, pose);
           EXPECT_EQ(sum_of_indices(critical), all[a].euler * all[b].euler)
               << name << ", " << all[a].name << " at " << all[b].name << ", pose " << k << "\n"
               << text(critical);
-          LmdSet lmds;
-          method->search(pose, lmds, counters);
-          EXPECT_TRUE(same_bits(minima_of(critical), lmds))
-              << name << ", " << all[a].name << ", " << all[b].name;
+          testing::expect_same_lmds(minima_of(critical), lmds_at(*method, pose),
+                                    name + ", " + all[a].name + ", " + all[b].name);
           for (const CriticalPair& pair : critical)
             EXPECT_TRUE(pair.has_index && (!pair.is_minimum || pair.index == 1)) << pair.index;
         }
@@ -114,9 +102,7 @@ TEST(CriticalPairs, OfConvexBodiesOnEachOtherAreTheOneLmd) {
       std::mt19937_64 poses(seed);
       for (int k = 0; k < 10; ++k) {
         const Pose pose = testing::flush_pose(moving, fixed, poses);
-        CriticalSet critical;
-        WorkCounters counters;
-        method->find_critical(pose, critical, counters);
+        const CriticalSet critical = critical_at(*method, pose);
         // Nearer meshes may intersect at the slight turn in which indices are taken.
         if (critical.empty() || critical.front().pair.distance < 1e-7) continue;
         ++asked;
@@ -133,14 +119,10 @@ TEST(CriticalPairs, BordersHaveNoIndex) {
   const Scene scene = testing::make_scene(make_sphere(0.2, 1), make_patch(1.0, 4, 0.1), 1.0);
   for (const std::string& name : methods_with_critical_pairs()) {
     const auto method = make_method(name, scene);
-    CriticalSet critical;
-    LmdSet lmds;
-    WorkCounters counters;
     for (const Pose& pose :
          {testing::moved(0.9, 0.05, 0.0), testing::moved(0.7, 0.7, 0.1), testing::moved(0.0, 0.0, 0.5)}) {
-      method->find_critical(pose, critical, counters);
-      method->search(pose, lmds, counters);
-      EXPECT_TRUE(same_bits(minima_of(critical), lmds));
+      const CriticalSet critical = critical_at(*method, pose);
+      testing::expect_same_lmds(minima_of(critical), lmds_at(*method, pose));
       ASSERT_FALSE(critical.empty());
       for (const CriticalPair& pair : critical) {
         const bool on_border = scene.fixed[0]->surface().is_boundary(pair.pair.feature_fixed);
@@ -163,9 +145,7 @@ TEST(CriticalPairs, OfASphereInACavityOfABoxAddUp) {
     for (int k = 0; k < 20; ++k) {
       Pose pose{0.3 * testing::uniform(random) * testing::random_direction(random),
                 testing::random_rotation(random)};
-      CriticalSet critical;
-      WorkCounters counters;
-      method->find_critical(pose, critical, counters);
+      const CriticalSet critical = critical_at(*method, pose);
       EXPECT_EQ(sum_of_indices(critical), 2) << name << "\n" << text(critical);
     }
   }
@@ -181,10 +161,8 @@ TEST(Merges, JoinTheMinimaRoundARing) {
     for (int k = 0; k < 20; ++k) {
       const Pose pose{Vec3(0.02, 0.01, 0.5) + 0.05 * testing::random_direction(random),
                       testing::random_rotation(random)};
-      CriticalSet critical;
+      const CriticalSet critical = critical_at(*method, pose);
       std::vector<Merge> merges;
-      WorkCounters counters;
-      method->find_critical(pose, critical, counters);
       finder.find(pose, critical, merges);
       std::vector<std::size_t> group(critical.size());
       std::iota(group.begin(), group.end(), std::size_t{0});
@@ -221,11 +199,9 @@ TEST(Merges, GiveUpWhereMeshesMeet) {
   std::uint64_t most = 0;
   for (int k = 0; k < 3; ++k) {
     const Pose pose{Vec3(1.0 + 0.1 * k, 0.1, 0.6), testing::random_rotation(random)};
-    CriticalSet critical;
+    const CriticalSet critical = critical_at(*method, pose);
     std::vector<Merge> merges;
-    WorkCounters counters;
     MergeFinder finder(scene);
-    method->find_critical(pose, critical, counters);
     ASSERT_TRUE(critical.front().pair.intersecting);
     finder.find(pose, critical, merges);
     most = std::max(most, finder.triangle_distances());

@@ -15,9 +15,7 @@ Scene spheres() {
 }
 
 Pose at_gap(double gap) {
-  Pose pose;
-  pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
-  return pose;
+  return {Vec3(1.0 + gap, 0.0, 0.0)};
 }
 
 TEST(Query, JsonHasTheContractsKeys) {
@@ -51,9 +49,7 @@ TEST(Query, EmptySetHasNullDistance) {
 TEST(Query, ImprovedReducesItsCandidates) {
   const Scene scene = spheres();
   const auto improved = make_method("improved", scene);
-  LmdSet candidates;
-  WorkCounters counters;
-  improved->search(at_gap(0.01), candidates, counters);
+  const LmdSet candidates = lmds_at(*improved, at_gap(0.01));
   const QueryAnswer answer = query(*improved, at_gap(0.01), 0.05);
   EXPECT_LT(answer.lmds.size(), candidates.size());
   const auto steps = std::find_if(answer.counters.begin(), answer.counters.end(),

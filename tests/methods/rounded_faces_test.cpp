@@ -7,10 +7,7 @@
 #include <support/rounded.h>
 #include <support/scenes.h>
 
-#include <cmath>
-#include <memory>
 #include <numbers>
-#include <vector>
 
 /// Flat contact of meshes whose coordinates were rounded to single precision in files of their own.
 namespace lmdbench {
@@ -43,10 +40,7 @@ struct Pair {
 };
 
 LmdSet answer(const char* method, const Scene& scene, const Pose& pose) {
-  LmdSet lmds;
-  WorkCounters counters;
-  make_method(method, scene)->search(pose, lmds, counters);
-  return lmds;
+  return lmds_at(*make_method(method, scene), pose);
 }
 
 /// Expects as many contacts of the rounded pair as of the exact pair, at the same places.
@@ -116,8 +110,7 @@ TEST(RoundedFaces, ParallelEdgesAreOneContact) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
     const Pair pair(make_box(Vec3(1.0, 0.4, 0.4), 2), make_box(Vec3(1.0, 0.4, 0.4), 3), 0.05, seed);
-    Pose X_DA;
-    X_DA.translation = Vec3(0.6 * (uniform(random) - 0.5), 0.41, 0.42);
+    const Pose X_DA{Vec3(0.6 * (uniform(random) - 0.5), 0.41, 0.42)};
     expect_same_contacts(pair, X_DA, 1.0, 1);
   }
 }

@@ -31,9 +31,7 @@ PreparedRun approach(const std::vector<double>& gaps) {
       .made_path = std::nullopt,
       .defaults = {}};
   for (const double gap : gaps) {
-    Pose pose;
-    pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
-    run.input.poses.push_back(pose);
+    run.input.poses.push_back({Vec3(1.0 + gap, 0.0, 0.0)});
   }
   return run;
 }

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <judge/accuracy_table.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -17,10 +16,7 @@ namespace lmdbench::testing {
 namespace {
 
 std::string published(const char* path) {
-  std::ifstream file(std::string(LMDBENCH_SOURCE_DIR) + "/" + path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return read_text(std::string(LMDBENCH_SOURCE_DIR) + "/" + path);
 }
 
 const std::vector<AccuracyRow>& published_rows() {

@@ -84,9 +84,7 @@ TEST(ExactLmds, TheComparisonSeesWhatIsMissingAndWhatIsUntrue) {
   const Scene scene = make_scene(make_box({1, 1, 1}), make_box({1, 1, 1}), 0.5);
   const Pose pose = moved(1.1, 1.2, 1.3);
   const std::vector<ExactLmd> truth = exact::exact_lmds(scene, pose);
-  LmdSet found;
-  WorkCounters counters;
-  make_method("exhaustive", scene)->search(pose, found, counters);
+  LmdSet found = lmds_at(*make_method("exhaustive", scene), pose);
   ASSERT_EQ(truth.size(), 1u);
   EXPECT_EQ(compare_with_exact(found, truth).same_features, 1);
   EXPECT_EQ(compare_with_exact({}, truth).missed.size(), 1u);

@@ -20,10 +20,7 @@ using testing::moved;
 constexpr double CUTOFF = 0.05;
 
 LmdSet truth_of(const Scene& scene, const Pose& pose) {
-  LmdSet lmds;
-  WorkCounters counters;
-  make_method("exhaustive", scene)->search(pose, lmds, counters);
-  return lmds;
+  return lmds_at(*make_method("exhaustive", scene), pose);
 }
 
 /// A scene, its LMDs, and the judge's verdict on them.

@@ -6,16 +6,12 @@
 #include <judge/rest_judge.h>
 
 #include <algorithm>
-#include <string>
 
 namespace lmdbench::exact {
 namespace {
 
 LmdSet set_of(const char* method, const parts::RestScene& scene) {
-  LmdSet lmds;
-  WorkCounters counters;
-  make_method(method, scene.scene)->search(scene.X_WM, lmds, counters);
-  return lmds;
+  return lmds_at(*make_method(method, scene.scene), scene.X_WM);
 }
 
 std::size_t faults(const RestVerdict& verdict, RestFault fault) {

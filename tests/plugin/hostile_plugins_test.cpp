@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/sanitizers.h>
 #include <lmdbench/result_file/result_reader.h>
 
 #include <cli/program.h>
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -169,11 +169,7 @@ TEST_F(HostilePlugins, AreFoundByTheCheck) {
   const Outcome pushes = lmdbench("plugin check " + FOLDER + "pushes.so");
   EXPECT_EQ(pushes.code, 0) << pushes.out;
   EXPECT_THAT(pushes.out, AllOf(HasSubstr("passed  pushes: gives its force"), HasSubstr("no set is judged")));
-#if defined(__SANITIZE_ADDRESS__)
-  const std::string of_write = "ended its process";  // The sanitizer does.
-#else
-  const std::string of_write = "crashed";
-#endif
+  const std::string of_write = ADDRESS_SANITIZER ? "ended its process" : "crashed";
   const std::map<std::string, std::string> said{{"crash", "crashed"},
                                                 {"write_past_end", of_write},
                                                 {"not_a_number", "are not finite"},

@@ -12,13 +12,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <numbers>
@@ -66,14 +66,9 @@ TEST(Plugin, AnswersTheSameInBothPlaces) {
     WorkCounters marks;
     child->search(pose, a, marks);
     direct->search(pose, b, marks);
-    ASSERT_EQ(a.size(), b.size());
     ASSERT_GT(a.size(), 8U);
     EXPECT_TRUE(std::is_sorted(a.begin(), a.end(), lmd_less));
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      EXPECT_TRUE(same_feature_pair(a[i], b[i]));
-      EXPECT_EQ(a[i].distance, b[i].distance);
-      EXPECT_EQ(a[i].point_moving, b[i].point_moving);
-    }
+    testing::expect_same_lmds(a, b);
     marks[PluginMark::DUPLICATES] = 0;  // Triangles share corners.
     EXPECT_TRUE(marks == WorkCounters{});
   }
@@ -226,15 +221,11 @@ TEST(Plugin, CertifiedBehindTheInterfaceIsCertified) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 30; ++i) {
     const Pose pose = grazing_pose(scene, 0.05 * (i % 4), random);
-    LmdSet a, b;
-    WorkCounters marks, ignored;
-    certified->search(pose, a, ignored);
-    behind->search(pose, b, marks);
-    ASSERT_EQ(a.size(), b.size()) << i;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      EXPECT_TRUE(same_feature_pair(a[k], b[k])) << i;
-      EXPECT_NEAR(a[k].distance, b[k].distance, 1e-14) << "the pose is a matrix, not a quaternion";
-    }
+    LmdSet lmds;
+    WorkCounters marks;
+    behind->search(pose, lmds, marks);
+    // Its pose is a matrix, not a quaternion.
+    testing::expect_like_lmds(lmds, lmds_at(*certified, pose), 1e-14, std::to_string(i));
     EXPECT_GT(marks.values[MethodDescription::MARKS], 0U);
     marks.values[MethodDescription::MARKS] = 0;
     EXPECT_TRUE(marks == WorkCounters{}) << i;

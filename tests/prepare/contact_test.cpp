@@ -18,9 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 
 Pose at(double x) {
-  Pose pose;
-  pose.translation = Vec3(x, 0.0, 0.0);
-  return pose;
+  return {Vec3(x, 0.0, 0.0)};
 }
 
 TEST(FramesInContact, AreThoseWithinTheCutoff) {

@@ -5,25 +5,18 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace lmdbench {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::string results_readme() {
-  std::ostringstream text;
-  text << std::ifstream(LMDBENCH_SOURCE_DIR "/results/README.md").rdbuf();
-  return text.str();
-}
-
 TEST(Probes, EveryDatasetIsDescribedForReaders) {
-  const std::string readme = results_readme();
+  const std::string readme = testing::read_text(LMDBENCH_SOURCE_DIR "/results/README.md");
   std::set<std::string> paths;
   for (const Probe& probe : probes())
     for (const ProbeDataset& dataset : probe.datasets) {

@@ -29,9 +29,7 @@ Scene facing_spheres() {
 DriverInput approach(const std::vector<double>& gaps) {
   DriverInput input{.poses = {}, .device = VirtualPhantom(device_named("phantom-desktop")), .keep_lmds = {}};
   for (const double gap : gaps) {
-    Pose pose;
-    pose.translation = Vec3(1.0 + gap, 0.0, 0.0);
-    input.poses.push_back(pose);
+    input.poses.push_back({Vec3(1.0 + gap, 0.0, 0.0)});
   }
   return input;
 }

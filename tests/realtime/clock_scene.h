@@ -12,7 +12,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 /// Small scenes for runs on the clock. No test needs a tick in time: test machines may be busy.
 namespace lmdbench::testing {

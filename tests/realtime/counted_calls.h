@@ -14,10 +14,4 @@ struct CountedCalls {
 CountedCalls counted_calls();
 void reset_counted_calls();
 
-#ifdef __SANITIZE_THREAD__
-inline constexpr bool COUNTS_LOCKS = false;
-#else
-inline constexpr bool COUNTS_LOCKS = true;
-#endif
-
 }  // namespace lmdbench::testing

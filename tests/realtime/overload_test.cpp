@@ -34,12 +34,17 @@ void expect_nothing_uncounted(const RealtimeRun& run, std::int64_t frames) {
     EXPECT_GT(clock.tick_frame[i], clock.tick_frame[i - 1]);
 }
 
-TEST(Overload, ASearchThatSleepsMakesSetsOldAndNoTickLate) {
-  constexpr std::int64_t FRAMES = 1000;
+/// A run of a method that tracks, with this fault.
+RealtimeRun run_planted(const PlantedOverload& plant, std::int64_t frames) {
   RealtimeSettings settings = quick();
-  settings.choice.plant.search_sleep_s = 0.1;
-  const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(FRAMES), settings, {});
-  expect_nothing_uncounted(run, FRAMES);
+  settings.choice.plant = plant;
+  RealtimeRun run = run_realtime({clock_method(true)}, straight_path(frames), settings, {});
+  expect_nothing_uncounted(run, frames);
+  return run;
+}
+
+TEST(Overload, ASearchThatSleepsMakesSetsOldAndNoTickLate) {
+  const RealtimeRun run = run_planted({.search_sleep_s = 0.1, .stopped_role = {}}, 1000);
   const RealtimeRecord& clock = run.clocks[0];
   EXPECT_LE(clock.roles[1].turns, 11) << "searches of 100 ms in a second";
   EXPECT_GT(longest(clock.search_age), 100 * MS);
@@ -64,31 +69,17 @@ TEST(Overload, AStalledRecorderLosesRecordsAndSaysHowMany) {
 }
 
 TEST(Overload, AStoppedTrackingLeavesTheLastSet) {
-  constexpr std::int64_t FRAMES = 1000;
-  RealtimeSettings settings = quick();
-  settings.choice.plant.stopped_role = "tracking";
-  settings.choice.plant.stop_s = 0.3;
-  const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(FRAMES), settings, {});
-  expect_nothing_uncounted(run, FRAMES);
+  const RealtimeRun run = run_planted({.stopped_role = "tracking", .stop_s = 0.3}, 1000);
   EXPECT_GT(longest(run.clocks[0].servo().age), 290 * MS);
 }
 
 TEST(Overload, AStoppedSearchLeavesTheSetsOfTheLast) {
-  constexpr std::int64_t FRAMES = 1000;
-  RealtimeSettings settings = quick();
-  settings.choice.plant.stopped_role = "search";
-  settings.choice.plant.stop_s = 0.3;
-  const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(FRAMES), settings, {});
-  expect_nothing_uncounted(run, FRAMES);
+  const RealtimeRun run = run_planted({.stopped_role = "search", .stop_s = 0.3}, 1000);
   EXPECT_GT(longest(run.clocks[0].search_age), 290 * MS);
 }
 
 TEST(Overload, ABusyNeighbourOfTheSamePriorityCostsTicksThatAreCounted) {
-  constexpr std::int64_t FRAMES = 500;
-  RealtimeSettings settings = quick();
-  settings.choice.plant.neighbour_busy_s = 0.01;
-  const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(FRAMES), settings, {});
-  expect_nothing_uncounted(run, FRAMES);
+  const RealtimeRun run = run_planted({.neighbour_busy_s = 0.01, .stopped_role = {}}, 500);
   // SCHED_FIFO does not interrupt a neighbour of equal priority; the normal policy shares the core.
   const auto& grants = run.clocks[0].grants;
   const bool all =

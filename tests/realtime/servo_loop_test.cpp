@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/sanitizers.h>
 #include <lmdbench/realtime/driver.h>
 
 #include <gtest/gtest.h>
@@ -9,9 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <mutex>
-#include <vector>
 
 /// The servo loop never allocates, locks or faults; the tests notice such calls when planted.
 namespace lmdbench {
@@ -36,12 +35,10 @@ bool memory_is_locked(const RealtimeRecord& clock) {
 void expect_clean(const RealtimeRecord& clock) {
   EXPECT_EQ(counted_calls().allocations, 0);
   EXPECT_EQ(counted_calls().locks, 0);
-#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
   // Memory that the system refuses to lock may be paged.
-  if (memory_is_locked(clock)) {
+  if (!IS_SANITIZED && memory_is_locked(clock)) {
     EXPECT_EQ(clock.servo().use.minor_faults + clock.servo().use.major_faults, 0);
   }
-#endif
 }
 
 TEST(ServoLoop, IsCleanBehindLocalTracking) {
@@ -80,7 +77,7 @@ TEST(ServoLoop, APlantedAllocationIsSeen) {
 }
 
 TEST(ServoLoop, APlantedLockIsSeen) {
-  if (!testing::COUNTS_LOCKS) GTEST_SKIP() << "the thread sanitizer needs the mutexes itself";
+  if (THREAD_SANITIZER) GTEST_SKIP() << "the thread sanitizer needs the mutexes itself";
   static std::mutex mutex;
   run_counted(clock_method(false, [] { const std::lock_guard lock(mutex); }), straight_path(200));
   EXPECT_GT(counted_calls().locks, 0);

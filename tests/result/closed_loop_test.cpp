@@ -126,15 +126,20 @@ TEST(ClosedLoop, LeverRestsWhereHandPushAndContactBalance) {
   EXPECT_NEAR(rest.torque.y(), -0.05 * 2.0, 0.01);
 }
 
-TEST(ClosedLoop, RecordedTurnReplaysTheForces) {
+/// Along the recorded path of a closed loop the forces are those of the loop.
+void expect_replay(Experiment (*experiment)(std::vector<Override>)) {
   const ScratchDirectory scratch;
-  const std::filesystem::path file = scratch / "turned.tum";
-  write_tum(file, record_path(lever()));
-  const RunResult original = run_experiment(lever());
-  const RunResult replayed = run_experiment(lever({"/loop/kind=open", "/path/file=" + file.string()}));
+  const std::filesystem::path file = scratch / "recorded.tum";
+  write_tum(file, record_path(experiment({})));
+  const RunResult original = run_experiment(experiment({}));
+  const RunResult replayed = run_experiment(experiment({"/loop/kind=open", "/path/file=" + file.string()}));
   ASSERT_EQ(replayed.records[0].frames.size(), original.records[0].frames.size());
   for (std::size_t i = 0; i < replayed.records[0].frames.size(); ++i)
     EXPECT_LT((replayed.records[0].frames[i].force - original.records[0].frames[i].force).norm(), 1e-9) << i;
+}
+
+TEST(ClosedLoop, RecordedTurnReplaysTheForces) {
+  expect_replay(lever);
 }
 
 TEST(ClosedLoop, EnergyBalanceOfARunCloses) {
@@ -173,15 +178,8 @@ TEST(ClosedLoop, TruthIsTakenAtTheDevicesPoses) {
 }
 
 TEST(ClosedLoop, RecordedPathReplaysTheForces) {
-  const ScratchDirectory scratch;
+  expect_replay(wall);
   const Experiment closed = wall();
-  const std::filesystem::path file = scratch / "recorded.tum";
-  write_tum(file, record_path(closed));
-  const RunResult original = run_experiment(closed);
-  const RunResult replayed = run_experiment(wall({"/loop/kind=open", "/path/file=" + file.string()}));
-  ASSERT_EQ(replayed.records[0].frames.size(), original.records[0].frames.size());
-  for (std::size_t i = 0; i < replayed.records[0].frames.size(); ++i)
-    EXPECT_LT((replayed.records[0].frames[i].force - original.records[0].frames[i].force).norm(), 1e-9) << i;
   const Path thinned = record_path(closed, 7);
   const Path all = record_path(closed);
   ASSERT_EQ(thinned.size(), 86u);

@@ -16,13 +16,13 @@
 #include <result/deterministic_datasets.h>
 #include <result_file/result_reading.h>
 #include <support/committed.h>
+#include <support/files.h>
 #include <support/message_of.h>
+#include <support/same_lmds.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -86,16 +86,10 @@ TEST(Deforming, TheSetsOfARunAreThoseOfEachFramesMeshes) {
   for (std::int64_t frame = 0; frame < 50; ++frame) {
     const Scene scene = fresh_scene(run.prepared, frame);
     const Pose& pose = run.prepared.input.poses[static_cast<std::size_t>(frame)];
-    LmdSet fresh, rest;
-    WorkCounters counters;
-    make_method("certified", scene)->search(pose, fresh, counters);
-    make_method("certified", run.prepared.scene())->search(pose, rest, counters);
+    const LmdSet fresh = lmds_at(*make_method("certified", scene), pose);
+    const LmdSet rest = lmds_at(*make_method("certified", run.prepared.scene()), pose);
     const LmdSet& kept = certified.lmds.at(frame);
-    ASSERT_EQ(kept.size(), fresh.size()) << "frame " << frame;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      EXPECT_TRUE(same_feature_pair(kept[i], fresh[i])) << "frame " << frame;
-      EXPECT_EQ(kept[i].distance, fresh[i].distance) << "frame " << frame;
-    }
+    testing::expect_same_lmds(kept, fresh, "frame " + std::to_string(frame));
     found += fresh.size();
     differ_from_rest +=
         fresh.size() != rest.size() || (!fresh.empty() && fresh[0].distance != rest[0].distance);
@@ -115,10 +109,8 @@ TEST(Deforming, TruthAndFclSeeEachFramesMeshes) {
             result.doubles("/methods/certified/truth/recall").size());
   EXPECT_GT(run.tracks.front().truth()->frames.size(), 5u);
   for (const TruthFrame& truth : run.tracks.front().truth()->frames) {
-    LmdSet lmds;
-    WorkCounters counters;
-    make_method("exhaustive", fresh_scene(run.prepared, truth.frame))
-        ->search(run.prepared.input.poses[static_cast<std::size_t>(truth.frame)], lmds, counters);
+    const LmdSet lmds = lmds_at(*make_method("exhaustive", fresh_scene(run.prepared, truth.frame)),
+                                run.prepared.input.poses[static_cast<std::size_t>(truth.frame)]);
     ASSERT_EQ(truth.lmds.size(), lmds.size()) << "frame " << truth.frame;
     for (std::size_t i = 0; i < lmds.size(); ++i) EXPECT_EQ(truth.lmds[i].distance, lmds[i].distance);
   }
@@ -213,11 +205,7 @@ TEST(Deforming, AnExportHasEachFramesShape) {
   const RunResult run = run_to(small_run({"/frames=40"}), scratch / "r.h5");
   const ResultReader result(scratch / "r.h5");
   export_frames(result, scratch / "vtk", 4);
-  const auto text = [&](const std::string& name) {
-    std::ostringstream all;
-    all << std::ifstream(scratch / name).rdbuf();
-    return all.str();
-  };
+  const auto text = [&](const std::string& name) { return testing::read_text(scratch / name); };
   EXPECT_TRUE(std::filesystem::exists(scratch / "vtk/fixed_0.pvd"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "vtk/fixed_0.vtu"));
   EXPECT_GT(text("vtk/fixed_0/000010.vtu").size(), 1000u);
@@ -318,9 +306,7 @@ TEST(FrameVertices, AGeneratorWorksInTheMeshsOwnFrame) {
   MeshDeformation choice;
   choice.generator = DeformationChoice{DeformationKind::DENT, 0.1, 0.3, Vec3::UnitX(), 0};
   choice.period_s = 0.04;
-  Pose X_WF;
-  X_WF.translation = Vec3(5, 6, 7);
-  X_WF.rotation = Eigen::Quaterniond(0.8, 0.0, 0.0, 0.6);
+  const Pose X_WF{Vec3(5, 6, 7), Eigen::Quaterniond(0.8, 0.0, 0.0, 0.6)};
   const FrameVertices vertices(choice, {mesh, {}, mesh, X_WF}, 1000.0);
   std::vector<Vec3> found, expected;
   vertices.at(10, found);

@@ -141,9 +141,7 @@ TEST(Instances, ContactIsWithAnyOfThem) {
         FixedBody(std::make_shared<const Body>("placed", build_surface(placed_mesh(fixed)))));
   std::vector<Pose> poses;
   for (int k = 0; k < 60; ++k) {
-    Pose pose;
-    pose.translation = Vec3(0.01, 0.002 * k, 0.009 * k);
-    poses.push_back(pose);
+    poses.push_back({Vec3(0.01, 0.002 * k, 0.009 * k)});
   }
   const std::vector<bool> contact = frames_in_contact(scene, poses);
   EXPECT_EQ(contact, frames_in_contact(placed, poses));

@@ -13,6 +13,7 @@
 #include <result/deterministic_datasets.h>
 #include <result_file/result_reading.h>
 #include <support/committed.h>
+#include <support/files.h>
 #include <support/message_of.h>
 
 #include <algorithm>
@@ -21,7 +22,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -319,9 +319,8 @@ TEST(Movers, ExportAndTheViewHaveThemAll) {
   const auto written = export_frames(result, scratch / "vtk", 5);
   for (const char* name : {"movers.pvd", "forces-movers.pvd", "lmds-movers.pvd", "lmds-certified.pvd"})
     EXPECT_THAT(written, ::testing::Contains(scratch / "vtk" / name));
-  std::ifstream stream(scratch / "vtk" / "forces-movers" / "000000.vtu");
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
-  EXPECT_THAT(text, AllOf(HasSubstr("NumberOfPoints=\"7\""), HasSubstr("force of certified [N]")));
+  EXPECT_THAT(testing::read_text(scratch / "vtk" / "forces-movers" / "000000.vtu"),
+              AllOf(HasSubstr("NumberOfPoints=\"7\""), HasSubstr("force of certified [N]")));
   std::filesystem::create_directory(scratch / "view");
   write_report_scene(result, scratch / "view");
   for (const char* name : {"moving.off", "fixed_0.off", "mover_0.off", "mover_1.off"})

@@ -15,7 +15,6 @@
 
 #include <fstream>
 #include <string>
-#include <vector>
 
 namespace lmdbench {
 namespace {

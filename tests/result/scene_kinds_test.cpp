@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/sanitizers.h>
 #include <lmdbench/run/run.h>
-#include <lmdbench/stability/stability_search.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -157,11 +157,7 @@ TEST(SceneKinds, OnTheClockFramesAreThoseOfLockstep) {
   // A late tick skips its period.
   std::size_t same = 0;
   for (std::size_t i = 0; i < lockstep.size(); ++i) same += lockstep[i] == clocked[i] ? 1 : 0;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  EXPECT_GT(same, 0u) << "a sanitizer makes most ticks late";
-#else
-  EXPECT_GT(2 * same, lockstep.size());
-#endif
+  EXPECT_GT(2 * same, IS_SANITIZED ? 0 : lockstep.size()) << "a sanitizer makes most ticks late";
 }
 
 TEST(SceneKinds, WhoListsMoversInAnotherOrderGetsTheSameBits) {

@@ -9,12 +9,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/files.h>
 #include <support/scratch_directory.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -23,12 +22,8 @@ namespace lmdbench {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::read_text;
 using testing::ScratchDirectory;
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
@@ -65,15 +60,15 @@ TEST(ContentHash, IsTheShaOfTheBytesWithoutItself) {
   const ResultReader reader(file);
   const std::string hash = reader.text_attribute("/", CONTENT_HASH).value_or("");
   ASSERT_EQ(hash.size(), 64U);
-  std::string bytes = content_of(file);
+  std::string bytes = read_text(file);
   bytes.replace(bytes.find(hash), hash.size(), hash.size(), '0');
   EXPECT_EQ(sha256_of_text(bytes), hash);
-  EXPECT_EQ(content_of(file), content_of(write_result(scratch / "b.h5"))) << "the same bytes in every run";
+  EXPECT_EQ(read_text(file), read_text(write_result(scratch / "b.h5"))) << "the same bytes in every run";
 }
 
 TEST(ContentHash, EveryFlippedByteIsSeen) {
   const ScratchDirectory scratch;
-  const std::string whole = content_of(write_result(scratch / "whole.h5"));
+  const std::string whole = read_text(write_result(scratch / "whole.h5"));
   ASSERT_EQ(refusal(scratch / "whole.h5"), "");
   // At every place of the structure at the file's start and end, and some within the numbers.
   std::vector<std::size_t> places{whole.find("some words")};
@@ -88,7 +83,7 @@ TEST(ContentHash, EveryFlippedByteIsSeen) {
 
 TEST(ContentHash, ATextThatWasChangedIsNamedByTheHashAlone) {
   const ScratchDirectory scratch;
-  std::string bytes = content_of(write_result(scratch / "a.h5"));
+  std::string bytes = read_text(write_result(scratch / "a.h5"));
   bytes[bytes.find("some words")] = 'S';
   write_bytes(scratch / "a.h5", bytes);
   EXPECT_THAT(refusal(scratch / "a.h5"), HasSubstr("its bytes are not those that were written"));
@@ -97,7 +92,7 @@ TEST(ContentHash, ATextThatWasChangedIsNamedByTheHashAlone) {
 
 TEST(ContentHash, ANumberThatWasChangedIsNamedWithItsDataset) {
   const ScratchDirectory scratch;
-  std::string bytes = content_of(write_result(scratch / "a.h5"));
+  std::string bytes = read_text(write_result(scratch / "a.h5"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   write_bytes(scratch / "a.h5", bytes);
   EXPECT_THAT(refusal(scratch / "a.h5"), HasSubstr("/large: is damaged")) << "by HDF5's own checksum";

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <support/files.h>
 #include <support/message_of.h>
 #include <support/scratch_directory.h>
 #include <support/source_directory.h>
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <random>
 
@@ -165,11 +165,7 @@ TEST(ResultReader, NamesTheDamageOfAFileWhenItIsOpened) {
 
 TEST(ResultReader, DamagedFilesAreInputErrors) {
   const testing::ScratchDirectory scratch;
-  std::string bytes;
-  {
-    std::ifstream stream(small_result(scratch / "whole.h5"), std::ios::binary);
-    bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  }
+  const std::string bytes = testing::read_text(small_result(scratch / "whole.h5"));
   const auto read_all = [](const std::filesystem::path& file) {
     const ResultReader reader(file);
     for (const std::string& group : reader.groups("/methods"))

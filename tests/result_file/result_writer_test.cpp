@@ -5,12 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <result_file/result_reading.h>
+#include <support/files.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 
 namespace lmdbench {
@@ -21,13 +20,6 @@ using testing::OpenResult;
 using testing::ScratchDirectory;
 
 constexpr double NOT_SET = std::numeric_limits<double>::quiet_NaN();
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
-}
 
 TEST(ResultWriter, KeepsValuesShapesAndMeaning) {
   const ScratchDirectory directory;
@@ -119,7 +111,7 @@ TEST(ResultWriter, SameContentGivesTheSameBytes) {
     writer.write({"/provenance/argv", "1", "command line"}, {"lmdbench", "run"});
     writer.commit();
   }
-  EXPECT_EQ(bytes_of(directory / "a.h5"), bytes_of(directory / "b.h5"));
+  EXPECT_EQ(testing::read_text(directory / "a.h5"), testing::read_text(directory / "b.h5"));
 }
 
 TEST(ResultWriter, RefusesMistakesOfItsCaller) {
@@ -150,12 +142,12 @@ TEST(ResultWriter, HasTheFinalNameOnlyAfterCommit) {
     EXPECT_TRUE(std::filesystem::exists(file));
     EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
   }
-  const std::string first = bytes_of(file);
+  const std::string first = testing::read_text(file);
   {
     ResultWriter interrupted(file);
     interrupted.write({"/a", "m", "second"}, std::vector<double>{2.0}, {1});
   }
-  EXPECT_EQ(bytes_of(file), first) << "an interrupted run leaves the earlier result whole";
+  EXPECT_EQ(testing::read_text(file), first) << "an interrupted run leaves the earlier result whole";
   EXPECT_TRUE(std::filesystem::exists(file.string() + ".part"));
   ResultWriter writer(file);
   writer.write({"/a", "m", "third"}, std::vector<double>{3.0}, {1});

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/scene/near_pairs.h>
 #include <lmdbench/scene/scatter.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -35,9 +34,7 @@ Scene world_of(const Scatter& rule, double cutoff, const Vec3& origin = Vec3::Ze
 
 double distance_to(const Scene& scene, std::size_t instance, const Pose& X_WM) {
   const FixedBody& fixed = scene.fixed[instance];
-  return nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed->surface(),
-                      fixed->prepared<Hierarchy>(), relative_pose(fixed.X_WF, X_WM))
-      .distance;
+  return nearest_pair(*scene.moving, *fixed, relative_pose(fixed.X_WF, X_WM)).distance;
 }
 
 /// Radius of a sphere round the body's origin that holds the body.

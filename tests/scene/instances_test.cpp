@@ -6,11 +6,11 @@
 #include <lmdbench/scene/scatter.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -93,12 +93,9 @@ TEST(Instances, IsTheSceneWithEveryMeshInPlace) {
   ASSERT_TRUE(world.is_world());
   ASSERT_FALSE(placed.is_world());
   const auto a = make_method("certified", world), b = make_method("certified", placed);
-  LmdSet of_world, of_placed;
-  WorkCounters ignored;
   std::size_t lmds = 0;
   for (const Pose& pose : way_through(60, 12)) {
-    a->search(pose, of_world, ignored);
-    b->search(pose, of_placed, ignored);
+    const LmdSet of_world = lmds_at(*a, pose), of_placed = lmds_at(*b, pose);
     ASSERT_EQ(of_world.size(), of_placed.size());
     for (std::size_t i = 0; i < of_world.size(); ++i) {
       EXPECT_NEAR(of_world[i].distance, of_placed[i].distance, 1e-9);
@@ -124,21 +121,13 @@ TEST(Instances, EveryOrderOfInstancesGivesTheSameBits) {
   Scene shuffled = scene;
   for (std::size_t i = 0; i < order.size(); ++i) shuffled.fixed[i] = scene.fixed[order[i]];
   const auto a = make_method("certified", scene), b = make_method("certified", shuffled);
-  LmdSet first, second;
-  WorkCounters ignored;
   for (const Pose& pose : way_through(120, 13)) {
-    a->search(pose, first, ignored);
-    b->search(pose, second, ignored);
+    const LmdSet first = lmds_at(*a, pose);
+    LmdSet second = lmds_at(*b, pose);
     for (Lmd& lmd : second)
       lmd.fixed_body = static_cast<std::int32_t>(order[static_cast<std::size_t>(lmd.fixed_body)]);
     std::sort(second.begin(), second.end(), lmd_less);
-    ASSERT_EQ(first.size(), second.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      ASSERT_TRUE(same_feature_pair(first[i], second[i]));
-      ASSERT_EQ(first[i].distance, second[i].distance);
-      ASSERT_EQ(first[i].point_moving, second[i].point_moving);
-      ASSERT_EQ(first[i].point_fixed, second[i].point_fixed);
-    }
+    testing::expect_same_lmds(first, second);
   }
 }
 
@@ -147,11 +136,9 @@ TEST(Instances, CoincidentInstancesHaveASetEach) {
   const std::size_t before = scene.fixed.size();
   for (std::size_t i = 0; i < before; ++i) scene.fixed.push_back(FixedBody(scene.fixed[i]));
   const auto method = make_method("certified", scene);
-  LmdSet lmds;
-  WorkCounters ignored;
   std::size_t pairs = 0;
   for (const Pose& pose : way_through(60, 14)) {
-    method->search(pose, lmds, ignored);
+    const LmdSet lmds = lmds_at(*method, pose);
     ASSERT_EQ(lmds.size() % 2, 0u);
     for (const Lmd& lmd : lmds) {
       if (lmd.fixed_body >= static_cast<std::int32_t>(before)) continue;
@@ -180,14 +167,12 @@ TEST(Instances, IsTheSameAKilometreAway) {
     there.fixed[i].X_WF.translation = rounded.fixed[i].X_WF.translation + offset;
   }
   const auto a = make_method("certified", rounded), b = make_method("certified", there);
-  LmdSet near, far;
-  WorkCounters ignored;
   std::size_t lmds = 0;
   for (Pose pose : way_through(100, 15)) {
     pose.translation = on_grid(pose.translation);
-    a->search(pose, near, ignored);
+    const LmdSet near = lmds_at(*a, pose);
     pose.translation += offset;
-    b->search(pose, far, ignored);
+    const LmdSet far = lmds_at(*b, pose);
     ASSERT_EQ(near.size(), far.size());
     for (std::size_t i = 0; i < near.size(); ++i) {
       ASSERT_TRUE(same_feature_pair(near[i], far[i]));
@@ -214,13 +199,10 @@ TEST(Instances, MeshesMayLieFarFromTheirOwnOrigin) {
   }
   const auto a = make_method("certified", scene), b = make_method("certified", same),
              truth = make_method("exhaustive", same);
-  LmdSet here, there, true_set;
-  WorkCounters ignored;
   std::size_t lmds = 0;
   for (const Pose& pose : way_through(60, 16, 2.0)) {
-    a->search(pose, here, ignored);
-    b->search(pose, there, ignored);
-    truth->search(pose, true_set, ignored);
+    const LmdSet here = lmds_at(*a, pose), there = lmds_at(*b, pose);
+    const LmdSet true_set = lmds_at(*truth, pose);
     expect_same_sets(there, true_set, "far");
     ASSERT_EQ(here.size(), there.size());
     for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i].distance, there[i].distance, 1e-10);
@@ -272,11 +254,7 @@ TEST(Instances, KeptStateGoesFromInstanceToInstanceAndBack) {
     Pose pose = moved(((frame / 100) % 2 == 0 ? -4.0 : 4.0) + 1.9 - 0.002 * (frame % 100), 0.2, 0.1);
     coherent->search(pose, kept, of_kept);
     scratch->search(pose, fresh, of_fresh);
-    ASSERT_EQ(kept.size(), fresh.size()) << frame;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      ASSERT_TRUE(same_feature_pair(kept[i], fresh[i]));
-      ASSERT_EQ(kept[i].point_moving, fresh[i].point_moving);
-    }
+    testing::expect_same_lmds(kept, fresh, std::to_string(frame));
     lmds += kept.size();
   }
   EXPECT_GT(lmds, 600u);
@@ -341,15 +319,11 @@ TEST(Instances, TrackingMovesASetAlong) {
 TEST(Instances, TheMinimaOfCriticalPairsAreItsSet) {
   const Scene scene = small_world(0.8);
   const auto method = make_method("certified", scene), other = make_method("certified", scene);
-  CriticalSet critical;
-  LmdSet lmds;
-  WorkCounters ignored;
   std::size_t saddles = 0;
   for (const Pose& pose : way_through(60, 19)) {
-    method->find_critical(pose, critical, ignored);
-    other->search(pose, lmds, ignored);
+    const CriticalSet critical = critical_at(*method, pose);
     const LmdSet minima = minima_of(critical);
-    expect_same_sets(minima, lmds, "critical");
+    expect_same_sets(minima, lmds_at(*other, pose), "critical");
     saddles += critical.size() - minima.size();
   }
   EXPECT_GT(saddles, 0u);

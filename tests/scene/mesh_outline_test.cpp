@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/scene/mesh_bounds.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
@@ -44,9 +44,7 @@ TEST(MeshOutline, IsNearerThanTheMeshesAndNotByMuch) {
     Pose pose;
     pose.rotation = random_rotation(random);
     pose.translation = (1.5 + 2.5 * uniform(random)) * random_direction(random);
-    const double exact = nearest_pair(moving->surface(), moving->prepared<Hierarchy>(), fixed->surface(),
-                                      fixed->prepared<Hierarchy>(), pose)
-                             .distance;
+    const double exact = nearest_pair(*moving, *fixed, pose).distance;
     const double bound = outline_distance(a, b, RigidTransform(pose), 0.0);
     EXPECT_LE(bound, exact);
     apart += exact > 0.4 ? 1 : 0;
@@ -59,8 +57,7 @@ TEST(MeshOutline, IsNearerThanTheMeshesAndNotByMuch) {
 TEST(MeshOutline, StopsWhereItIsNearEnough) {
   const auto mesh = make_body("mesh", make_sphere(0.5, 3));
   const auto& outline = mesh->prepared<MeshOutline>();
-  Pose pose;
-  pose.translation = Vec3(1.5, 0.0, 0.0);
+  const Pose pose{Vec3(1.5, 0.0, 0.0)};
   const double whole = outline_distance(outline, outline, RigidTransform(pose), -1.0);
   EXPECT_GT(whole, 0.2);
   EXPECT_LE(outline_distance(outline, outline, RigidTransform(pose), whole + 0.1), whole + 0.1);

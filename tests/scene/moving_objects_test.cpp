@@ -5,6 +5,7 @@
 #include <lmdbench/scene/scene_search.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -133,10 +134,7 @@ class Truth {
     const Body *a = play_.movers[mover].get(), *b = fixed.body.get();
     auto& method = methods_[{a, b}];
     if (!method) method = make_method("exhaustive", {play_.movers[mover], {fixed.body}, cutoff_});
-    LmdSet lmds;
-    WorkCounters ignored;
-    method->search(relative_pose(moves ? poses[other] : fixed.X_WF, poses[mover]), lmds, ignored);
-    return lmds;
+    return lmds_at(*method, relative_pose(moves ? poses[other] : fixed.X_WF, poses[mover]));
   }
 
  private:
@@ -243,9 +241,7 @@ TEST(MovingObjects, IsTheWorldWithEveryMeshInPlace) {
       const auto method = make_method("exhaustive", {in_place(*play.movers[pair.mover], poses[pair.mover]),
                                                      {in_place(*fixed.body, fixed.X_WF)},
                                                      CUTOFF});
-      LmdSet expected;
-      WorkCounters ignored;
-      method->search(Pose{}, expected, ignored);
+      const LmdSet expected = lmds_at(*method, Pose{});
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) {
         const Lmd& lmd = found[i];
@@ -272,12 +268,10 @@ TEST(MovingObjects, OfOneMoverIsAWorld) {
   }
   Player player(play, 0.2);
   const auto world = make_method("certified", {play.movers[0], play.standing, 0.2});
-  LmdSet lmds;
-  WorkCounters counters;
   std::size_t all = 0;
   for (const std::vector<Pose>& poses : play.frames) {
     const LmdSet& found = player.at(poses);
-    world->search(poses[0], lmds, counters);
+    const LmdSet lmds = lmds_at(*world, poses[0]);
     ASSERT_EQ(found.size(), lmds.size());
     for (std::size_t i = 0; i < lmds.size(); ++i) {
       EXPECT_EQ(found[i].fixed_body, lmds[i].fixed_body + 1);
@@ -314,16 +308,8 @@ TEST(MovingObjects, NeitherOrderNorTuningChangesASet) {
     tuned.emplace_back(play, 0.2, BroadPhase::Tuning{.slack = slack, .pack_share = share});
   std::size_t swapped = 0, kept = 0;
   for (std::size_t frame = 0; frame < play.frames.size(); ++frame) {
-    const LmdSet found = player.at(play.frames[frame]);
-    for (Player& one : tuned) {
-      const LmdSet& again = one.at(play.frames[frame]);
-      ASSERT_EQ(again.size(), found.size());
-      for (std::size_t i = 0; i < again.size(); ++i) {
-        EXPECT_TRUE(same_feature_pair(again[i], found[i]));
-        EXPECT_EQ(again[i].point_moving, found[i].point_moving);
-        EXPECT_EQ(again[i].distance, found[i].distance);
-      }
-    }
+    const LmdSet untuned = player.at(play.frames[frame]);
+    for (Player& one : tuned) testing::expect_same_lmds(one.at(play.frames[frame]), untuned);
     const Sets first = player.sets_at(play.frames[frame]), second = other.sets_at(shuffled.frames[frame]);
     ASSERT_EQ(first.size(), second.size());
     for (const auto& [pair, lmds] : second) {
@@ -440,9 +426,7 @@ TEST(MovingObjects, MethodsGoFromPairToPair) {
   std::uint32_t met = 0;
   for (const std::vector<Pose>& poses : play.frames) {
     const Sets sets = player.sets_at(poses);
-    const LmdSet &found = player.at(poses), &fresh = scratch.at(poses);
-    ASSERT_EQ(found.size(), fresh.size());
-    for (std::size_t i = 0; i < fresh.size(); ++i) ASSERT_EQ(found[i].point_fixed, fresh[i].point_fixed);
+    testing::expect_same_lmds(player.at(poses), scratch.at(poses));
     for (const auto& [pair, lmds] : sets) met = std::max(met, pair.other);
   }
   EXPECT_EQ(met, 60u);
@@ -454,9 +438,8 @@ TEST(MovingObjects, OneMethodServesAllThatKeepNothing) {
   Player certified(play, 0.2), exhaustive(play, 0.2, {}, "exhaustive");
   std::size_t lmds = 0;
   for (const std::vector<Pose>& poses : play.frames) {
-    const LmdSet &found = certified.at(poses), &truth = exhaustive.at(poses);
-    ASSERT_EQ(found.size(), truth.size());
-    for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_TRUE(same_feature_pair(found[i], truth[i]));
+    const LmdSet& truth = exhaustive.at(poses);
+    testing::expect_like_lmds(certified.at(poses), truth, 1e-12);
     lmds += truth.size();
   }
   EXPECT_GT(lmds, 0u);

@@ -4,6 +4,7 @@
 #include <lmdbench/scene/scene_search.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -82,13 +83,7 @@ TEST(SceneSearch, OfSeveralFixedMeshesUnitesTheirSetsBitForBit) {
         }
         std::sort(expected.begin(), expected.end(), lmd_less);
         const LmdSet& found = tracks ? tracked : lmds;
-        ASSERT_EQ(found.size(), expected.size()) << description.name;
-        for (std::size_t i = 0; i < found.size(); ++i) {
-          ASSERT_TRUE(same_feature_pair(found[i], expected[i])) << description.name;
-          ASSERT_EQ(found[i].distance, expected[i].distance);
-          ASSERT_EQ(found[i].point_moving, expected[i].point_moving);
-          ASSERT_EQ(found[i].point_fixed, expected[i].point_fixed);
-        }
+        testing::expect_same_lmds(found, expected, description.name);
         count += found.size();
       }
       tracked = lmds;
@@ -161,8 +156,6 @@ TEST(SceneSearch, FollowsMeshesThatDeformFarFromTheirOwnOrigin) {
   Scene scene{make_body("moving", make_sphere(0.5, 2)), {}, 0.2};
   for (const double x : {-0.1, 0.1}) scene.fixed.emplace_back(soft, moved(x - far.x(), -far.y(), -far.z()));
   const auto certified = make_method("certified", scene), truth = make_method("exhaustive", scene);
-  LmdSet found, expected;
-  WorkCounters ignored;
   std::size_t lmds = 0;
   for (int frame = 0; frame < 30; ++frame) {
     if (frame % 10 == 9) {
@@ -172,13 +165,8 @@ TEST(SceneSearch, FollowsMeshesThatDeformFarFromTheirOwnOrigin) {
     }
     // In one frame the deforming pairs are no candidates, and their methods are given back.
     const Pose pose = moved(frame == 19 ? 50.0 : 0.0, 1.15 + 0.005 * frame, 0.1);
-    certified->search(pose, found, ignored);
-    truth->search(pose, expected, ignored);
-    ASSERT_EQ(found.size(), expected.size()) << frame;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_TRUE(same_feature_pair(found[i], expected[i])) << frame;
-      EXPECT_NEAR(found[i].distance, expected[i].distance, 1e-12) << frame;
-    }
+    const LmdSet found = lmds_at(*certified, pose), expected = lmds_at(*truth, pose);
+    testing::expect_like_lmds(found, expected, 1e-12, std::to_string(frame));
     lmds += found.size();
   }
   EXPECT_GT(lmds, 30u);

@@ -7,7 +7,6 @@
 #include <support/rounded.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lmdbench {
 namespace {
@@ -78,9 +77,8 @@ TEST(FlatRegions, OpenSheetsHaveStraightBoundaries) {
 }
 
 TEST(FlatRegions, AnEdgeOfThreeFacesIsOnTheBorderOfEach) {
-  TriangleMesh mesh;
-  mesh.vertices = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.5, 1.0, 0.0}, {0.5, -1.0, 0.0}, {0.5, 0.0, 1.0}};
-  mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  TriangleMesh mesh{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.5, 1.0, 0.0}, {0.5, -1.0, 0.0}, {0.5, 0.0, 1.0}},
+                    {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
   const Surface surface = build_surface(std::move(mesh));
   const FlatRegions regions = FlatRegions::of(surface);
   ASSERT_EQ(regions.region_count(), 3);

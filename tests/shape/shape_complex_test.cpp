@@ -158,9 +158,8 @@ TEST(ShapeComplex, TrianglesThatAddNothingHaveNoFeatures) {
 
 TEST(ShapeComplex, ATriangleWithoutAreaThatOthersHangOnIsCarriedByItself) {
   // A square whose lower half has a vertex inside the diagonal; a triangle of both closes the seam.
-  TriangleMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
-  mesh.triangles = {{0, 2, 3}, {0, 1, 4}, {1, 2, 4}, {0, 4, 2}};
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                          {{0, 2, 3}, {0, 1, 4}, {1, 2, 4}, {0, 4, 2}}};
   const Surface surface = build_surface(mesh);
   const ShapeComplex shape = ShapeComplex::of(surface);
   ASSERT_TRUE(shape.regions.adds_nothing.empty() || !shape.regions.adds_nothing[3]);

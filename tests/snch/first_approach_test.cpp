@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/snch/first_approach.h>
-#include <lmdbench/snch/minimum_distance.h>
+
+#include <lmdbench/lmd/body_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
@@ -16,14 +16,9 @@ class Approach {
   explicit Approach(const Scene& scene) : scene_(scene) {}
 
   FirstApproach from(const Pose& pose, const Vec3& direction, double gap) const {
-    return first_approach(moving().surface(), moving().prepared<Hierarchy>(), fixed().surface(),
-                          fixed().prepared<Hierarchy>(), pose, direction, gap, TOLERANCE);
+    return first_approach(moving(), fixed(), pose, direction, gap, TOLERANCE);
   }
-  double distance(const Pose& pose) const {
-    return nearest_pair(moving().surface(), moving().prepared<Hierarchy>(), fixed().surface(),
-                        fixed().prepared<Hierarchy>(), pose)
-        .distance;
-  }
+  double distance(const Pose& pose) const { return nearest_pair(moving(), fixed(), pose).distance; }
 
  private:
   const Body& moving() const { return *scene_.moving; }

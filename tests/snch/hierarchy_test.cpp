@@ -128,9 +128,7 @@ TEST(NodeTests, KeepEveryTrueLmd) {
     for (int sample = 0; sample < 12; ++sample) {
       const Pose pose = grazing_pose(scene, 0.02, random);
       const RigidTransform transform(pose);
-      LmdSet lmds;
-      WorkCounters counters;
-      exhaustive.search(pose, lmds, counters);
+      const LmdSet lmds = lmds_at(exhaustive, pose);
       for (const Lmd& lmd : lmds) {
         ++lmd_count;
         bool literal_keeps = true;
@@ -208,9 +206,7 @@ TEST(LeafCones, TheNarrowerOnesLoseLmds) {
     lost.push_back(0);
     for (int sample = 0; sample < 10; ++sample) {
       const Pose pose = grazing_pose(scene, 0.02, same);
-      LmdSet lmds;
-      WorkCounters counters;
-      exhaustive.search(pose, lmds, counters);
+      const LmdSet lmds = lmds_at(exhaustive, pose);
       for (const Lmd& lmd : lmds) {
         const WorldNode a(*leaves_moving.at(lmd.triangle_moving).back(), RigidTransform(pose));
         const HierarchyNode& b = *leaves_fixed.at(lmd.triangle_fixed).back();

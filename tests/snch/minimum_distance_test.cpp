@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/snch/minimum_distance.h>
+
+#include <lmdbench/lmd/body_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
@@ -27,8 +28,7 @@ TEST(NearestPair, EqualsBruteForce) {
   for (int i = 0; i < 20; ++i) {
     Pose pose{0.2 * testing::uniform(random) * testing::random_direction(random),
               testing::random_rotation(random)};
-    const NearestPair nearest = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                             fixed.prepared<Hierarchy>(), pose);
+    const NearestPair nearest = nearest_pair(moving, fixed, pose);
     EXPECT_EQ(nearest.distance, brute_force_distance(moving.surface().mesh, fixed.surface().mesh, pose));
   }
 }
@@ -40,13 +40,8 @@ TEST(WithinDistance, IsWhetherTheNearestPairIs) {
   for (int i = 0; i < 40; ++i) {
     const Pose pose{0.2 * testing::uniform(random) * testing::random_direction(random),
                     testing::random_rotation(random)};
-    const double nearest = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                        fixed.prepared<Hierarchy>(), pose)
-                               .distance;
-    const auto within = [&](double distance) {
-      return within_distance(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                             fixed.prepared<Hierarchy>(), pose, distance);
-    };
+    const double nearest = nearest_pair(moving, fixed, pose).distance;
+    const auto within = [&](double distance) { return within_distance(moving, fixed, pose, distance); };
     EXPECT_TRUE(within(nearest));
     EXPECT_TRUE(within(1.5 * nearest + 1e-3));
     if (nearest > 0.0) {
@@ -58,12 +53,8 @@ TEST(WithinDistance, IsWhetherTheNearestPairIs) {
 TEST(NearestPair, FindsNothingBeyondTheBound) {
   const Scene scene = testing::make_scene(make_sphere(0.5, 2), make_sphere(0.5, 2), 1.0);
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-  Pose pose;
-  pose.translation = {2.0, 0.0, 0.0};
-  const auto query = [&](double bound) {
-    return nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                        fixed.prepared<Hierarchy>(), pose, bound);
-  };
+  const Pose pose{Vec3(2.0, 0.0, 0.0)};
+  const auto query = [&](double bound) { return nearest_pair(moving, fixed, pose, bound); };
   EXPECT_EQ(query(0.9).triangle_moving, -1);
   EXPECT_GE(query(1.2).triangle_moving, 0);
   EXPECT_NEAR(query(1.2).distance, 1.0, 0.03);
@@ -72,12 +63,8 @@ TEST(NearestPair, FindsNothingBeyondTheBound) {
 TEST(NearestPair, IsZeroInContact) {
   const Scene scene = testing::make_scene(make_sphere(0.5, 2), make_sphere(0.5, 2), 1.0);
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-  Pose pose;
-  pose.translation = {0.9, 0.01, 0.02};
-  EXPECT_EQ(nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                         fixed.prepared<Hierarchy>(), pose)
-                .distance,
-            0.0);
+  const Pose pose{Vec3(0.9, 0.01, 0.02)};
+  EXPECT_EQ(nearest_pair(moving, fixed, pose).distance, 0.0);
 }
 
 }  // namespace

@@ -10,12 +10,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/committed.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -29,11 +28,6 @@ namespace lmdbench {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 StabilityRow search(const std::vector<Override>& overrides) {
   return find_critical_stiffness(load_experiment(testing::WALL_FILE, overrides)).at(0);
@@ -396,7 +390,7 @@ TEST(StabilitySearch, TapsAreSeenByTheEncoders) {
 TEST(StabilitySearch, PhantomsHaveAnAnswer) {
   for (const char* device : {"phantom-desktop", "phantom-premium-1.5", "phantom-premium-1.5-6dof",
                              "phantom-omni", "phantom-premium-3.0-6dof"}) {
-    Json file = Json::parse(text_of(testing::WALL_FILE));
+    Json file = Json::parse(testing::read_text(testing::WALL_FILE));
     for (const char* figure : {"mass_kg", "damping_n_s_per_m", "friction_n", "resolution_m"})
       file["loop"].erase(figure);
     file["device"] = device;

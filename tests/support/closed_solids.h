@@ -7,7 +7,6 @@
 #include <array>
 #include <map>
 #include <set>
-#include <vector>
 
 /// Closed meshes that bound solids of known Euler characteristics.
 namespace lmdbench::testing {

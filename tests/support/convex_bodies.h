@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
-#include <utility>
 #include <vector>
 
 /// Convex bodies with known faces, and poses with their borders and corners over each other.

@@ -4,12 +4,11 @@
 
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/pose.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/snch/first_approach.h>
 
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -29,9 +28,7 @@ inline Scene make_scene(TriangleMesh moving, TriangleMesh fixed, double cutoff) 
 
 /// A translation.
 inline Pose moved(double x, double y, double z) {
-  Pose pose;
-  pose.translation = Vec3(x, y, z);
-  return pose;
+  return {Vec3(x, y, z)};
 }
 
 /// Uniform in [0, 1), the same on every standard library.
@@ -60,9 +57,7 @@ inline Pose grazing_pose(const Scene& scene, double gap, std::mt19937_64& random
   Pose pose;
   pose.rotation = random_rotation(random);
   const Vec3 outward = -random_direction(random);
-  const double displacement = first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                             fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-9)
-                                  .displacement;
+  const double displacement = first_approach(moving, fixed, pose, outward, gap, 1e-9).displacement;
   if (!std::isfinite(displacement)) return grazing_pose(scene, gap, random);  // A miss.
   pose.translation = displacement * outward;
   return pose;

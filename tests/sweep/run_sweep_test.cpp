@@ -8,12 +8,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <result_file/result_reading.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace lmdbench {
 namespace {
@@ -150,8 +149,7 @@ TEST_F(RunSweep, ReplacesNothingButItsOwn) {
   const Sweep sweep = load_sweep(write());
   scratch_.write("out.h5.points.jsonl", "somebody's notes\n");
   EXPECT_THROW(run(sweep), UsageError);
-  std::ifstream stream(scratch_ / "out.h5.points.jsonl");
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "somebody's notes\n");
+  EXPECT_EQ(testing::read_text(scratch_ / "out.h5.points.jsonl"), "somebody's notes\n");
 }
 
 TEST(PointNumbers, HaveNamesOfTheirOwn) {

@@ -13,7 +13,6 @@
 #include <support/source_directory.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 

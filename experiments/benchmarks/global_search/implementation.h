@@ -6,7 +6,6 @@
 
 #include <support/lmd_error.h>
 
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>

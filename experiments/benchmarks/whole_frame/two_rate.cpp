@@ -5,8 +5,6 @@
 #include <benchmarks/whole_frame/implementation.h>
 #include <benchmarks/whole_frame/rendered.h>
 
-#include <utility>
-
 namespace lmdbench::experiments {
 namespace {
 

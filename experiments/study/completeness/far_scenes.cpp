@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/snch/first_approach.h>
 
 #include <fmt/format.h>
 #include <study/completeness/far_scenes.h>
@@ -67,9 +67,7 @@ Pose near_pose(const Body& moving, const Body& fixed, double gap, bool parallel,
   pose.rotation = random_rotation(parallel, random);
   for (Vec3 way = parallel ? Vec3::UnitZ() : random.direction();; way = random.direction()) {
     const double displacement =
-        first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                       fixed.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
-            .displacement;
+        first_approach(moving, fixed, pose, way, gap, experiments::GAP_TOLERANCE).displacement;
     pose.translation = displacement * way;
     if (std::isfinite(displacement)) return pose;  // A line may pass through a hole.
   }

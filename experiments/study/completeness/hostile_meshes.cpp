@@ -7,7 +7,6 @@
 #include <support/parts/chances.h>
 
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace lmdbench::completeness {

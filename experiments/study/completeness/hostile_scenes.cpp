@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/mesh/surface.h>
-#include <lmdbench/snch/first_approach.h>
 
 #include <fmt/format.h>
 #include <study/completeness/hostile_meshes.h>
@@ -76,9 +75,7 @@ class Start {
     for (int trial = 0; trial < 20; ++trial) {
       const Vec3 way = some_direction(random);
       const double displacement =
-          first_approach(moving_.surface(), moving_.prepared<Hierarchy>(), fixed_.surface(),
-                         fixed_.prepared<Hierarchy>(), pose, way, gap, experiments::GAP_TOLERANCE)
-              .displacement;
+          first_approach(moving_, fixed_, pose, way, gap, experiments::GAP_TOLERANCE).displacement;
       if (!std::isfinite(displacement)) continue;  // The line misses the fixed mesh.
       pose.translation = displacement * way;
       if (chance(0.2, random)) pose.translation -= cutoff_ * power_of_ten(-9.0, 1.0, random) * way;

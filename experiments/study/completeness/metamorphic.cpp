@@ -254,10 +254,7 @@ ScenePair pair_of(const parts::RestScene& scene) {
 }
 
 LmdSet set_of(const char* method, const ScenePair& pair) {
-  LmdSet lmds;
-  WorkCounters counters;
-  make_method(method, scene_of(pair))->search(pair.X_WM, lmds, counters);
-  return lmds;
+  return lmds_at(*make_method(method, scene_of(pair)), pair.X_WM);
 }
 
 Difference compare(const ScenePair& pair, const LmdSet& a, const LmdSet& b, double scale,

@@ -11,13 +11,6 @@
 namespace lmdbench::completeness {
 namespace {
 
-LmdSet search(Method& method, const Pose& X_WM) {
-  LmdSet lmds;
-  WorkCounters counters;
-  method.search(X_WM, lmds, counters);
-  return lmds;
-}
-
 std::string upper_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -83,14 +76,14 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
     }
     const auto of_uncut = uncut ? make_method("exhaustive", uncut->scene) : nullptr;
     for (const Pose& pose : scene.poses) {
-      const LmdSet truth = search(*exhaustive, pose);
+      const LmdSet truth = lmds_at(*exhaustive, pose);
       ++result.poses;
       result.true_lmds += truth.size();
       std::string wrong, first;
       for (std::size_t v = 0; v < methods.size(); ++v) {
         std::string objection;
         result.judgements[v] +=
-            judge(truth, search(*methods[v], pose), scene.scene, scene.diagonal, objection);
+            judge(truth, lmds_at(*methods[v], pose), scene.scene, scene.diagonal, objection);
         if (objection.empty()) continue;
         wrong +=
             (wrong.empty() ? "" : ", ") + variants()[v].label + (objection == first ? "" : ": " + objection);
@@ -99,7 +92,7 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
       if (!wrong.empty()) complain(test_line(choice, pose) + "  // " + wrong);
       result.wrong_poses += !wrong.empty();
       if (!uncut) continue;
-      const LmdSet truth_of_uncut = search(*of_uncut, pose);
+      const LmdSet truth_of_uncut = lmds_at(*of_uncut, pose);
       if (same_contacts(truth, truth_of_uncut, scene.diagonal)) continue;
       ++result.poses_that_show_cut;
       complain(fmt::format("{}  // the cut shows; exact:\n{}recut:\n{}", test_line(choice, pose),

@@ -12,7 +12,6 @@
 #include <support/timing.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace lmdbench::completeness {

@@ -7,7 +7,6 @@
 #include <nlohmann/json_fwd.hpp>
 #include <study/completeness/judge.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>

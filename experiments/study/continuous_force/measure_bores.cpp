@@ -48,10 +48,7 @@ std::vector<BoreRow> measure_bores(std::size_t rolls, std::size_t slope_steps, c
     BoreRow row{rod, bore, {}, {}, {}};
     Renderer renderer(rod_in_bore(rod, bore), profile, layered);
     const auto pose_at = [](double x, double y, double roll) {
-      Pose pose;
-      pose.translation = Vec3(x, y, 0.03 * ROD);
-      pose.rotation = Eigen::AngleAxisd(roll, Vec3::UnitZ());
-      return pose;
+      return Pose{Vec3(x, y, 0.03 * ROD), Eigen::Quaterniond(Eigen::AngleAxisd(roll, Vec3::UnitZ()))};
     };
     std::array<std::vector<double>, LAWS> lengths;
     for (std::size_t k = 0; k < rolls; ++k) {

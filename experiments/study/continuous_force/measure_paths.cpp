@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/statistics.h>
 
 #include <Eigen/LU>
 #include <study/continuous_force/measures.h>

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/geometry/convex_polygon.h>
-#include <lmdbench/mesh/placement.h>
-#include <lmdbench/snch/first_approach.h>
+#include <lmdbench/lmd/body_distance.h>
 
 #include <study/continuous_force/measures.h>
 #include <support/closed_solids.h>
@@ -82,9 +81,7 @@ std::vector<CutRow> measure_cuts(std::size_t poses, std::uint64_t seed) {
     const Vec3 outward = random.direction();
     const Body &moving = *plain.moving, &fixed = *plain.fixed[0];
     const double displacement =
-        first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                       fixed.prepared<Hierarchy>(), pose, outward, random.uniform(0.02, 0.15), 1e-6)
-            .displacement;
+        first_approach(moving, fixed, pose, outward, random.uniform(0.02, 0.15), 1e-6).displacement;
     if (!std::isfinite(displacement)) continue;
     pose.translation = displacement * outward;
     chosen.push_back(pose);
@@ -178,8 +175,7 @@ std::vector<NotchRow> measure_notches() {
     }();
     const Scene scene{body_of(spindle), {body_of(block)}, CUTOFF};
     Renderer renderer(scene, profile, LayeredChoice());
-    Pose pose;
-    pose.translation = Vec3(1e-5, 0.013, APART / std::sin(angle));
+    const Pose pose{Vec3(1e-5, 0.013, APART / std::sin(angle))};
     const Forces force = renderer.at(pose).force;
     NotchRow row{degrees, {}};
     for (std::size_t law = 0; law < LAWS; ++law) row.outwards[law] = force[law].z();

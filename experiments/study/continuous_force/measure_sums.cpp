@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/snch/first_approach.h>
 
 #include <study/continuous_force/measures.h>
 #include <support/closed_solids.h>
@@ -73,10 +73,7 @@ std::vector<SumRow> measure_sums(std::size_t poses, std::uint64_t seed, bool exh
           const Vec3 outward = random.direction();
           const double gap = std::pow(10.0, random.uniform(-4.0, 0.3));
           const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-          const double displacement =
-              first_approach(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                             fixed.prepared<Hierarchy>(), pose, outward, gap, 1e-6)
-                  .displacement;
+          const double displacement = first_approach(moving, fixed, pose, outward, gap, 1e-6).displacement;
           if (!std::isfinite(displacement)) continue;
           pose.translation = displacement * outward;
           ++row.poses;

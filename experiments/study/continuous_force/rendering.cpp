@@ -27,8 +27,7 @@ Renderer::Renderer(const Scene& scene, const ForceProfile& profile, std::optiona
 
 Rendered Renderer::at(const Pose& X_WM) {
   Rendered rendered;
-  WorkCounters ignored;
-  method_->find_critical(X_WM, rendered.critical, ignored);
+  rendered.critical = critical_at(*method_, X_WM);
   merges_.find(X_WM, rendered.critical, found_);
   rendered.merges = found_.size();
   const ForceInput input{rendered.critical, found_};

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/polar_condition.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
 #include <lmdbench/methods/certified/layout/wide_hierarchy.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <benchmarks/global_search/implementation.h>
 #include <fmt/format.h>
@@ -75,8 +75,7 @@ std::string minimum_objection(double minimum, const MeasureChoice& choice, doubl
 bool nearest_pair_is_lmd(const Scene& scene, const Pose& X_WM) {
   const Surface& moving = scene.moving->surface();
   const Surface& fixed = scene.fixed.at(0)->surface();
-  const NearestPair nearest = nearest_pair(moving, scene.moving->prepared<Hierarchy>(), fixed,
-                                           scene.fixed[0]->prepared<Hierarchy>(), X_WM);
+  const NearestPair nearest = nearest_pair(*scene.moving, *scene.fixed[0], X_WM);
   const Vec3 &p_W = nearest.pair.point_a, &q_W = nearest.pair.point_b;
   // No wing leads from it to a nearer point.
   return is_outer(moving, moving.feature_of(nearest.triangle_moving, nearest.pair.feature_a),

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/snch/minimum_distance.h>
+
+#include <lmdbench/lmd/body_distance.h>
 
 #include <study/scaling/slide.h>
 
@@ -8,9 +9,7 @@ namespace lmdbench::scaling {
 
 std::vector<Pose> lead_in(const Body& moving, const Body& fixed, const Pose& end, double diagonal,
                           std::size_t frames, experiments::Random& random) {
-  const TrianglePairDistance nearest = nearest_pair(moving.surface(), moving.prepared<Hierarchy>(),
-                                                    fixed.surface(), fixed.prepared<Hierarchy>(), end)
-                                           .pair;
+  const TrianglePairDistance nearest = nearest_pair(moving, fixed, end).pair;
   const Vec3 normal_W = (nearest.point_b - nearest.point_a).normalized();
   const Vec3 pivot_W = nearest.point_a;
   const Vec3 tangent_W = normal_W.cross(random.direction()).normalized();

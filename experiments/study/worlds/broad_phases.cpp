@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/scene/scatter.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
@@ -47,9 +47,7 @@ struct Input {
 
   bool within_reach(std::uint32_t instance, const Pose& X_WM) const {
     const Body& cube = *scene.moving;
-    return within_distance(cube.surface(), cube.prepared<Hierarchy>(), cube.surface(),
-                           cube.prepared<Hierarchy>(), relative_pose(scene.fixed[instance].X_WF, X_WM),
-                           reach);
+    return within_distance(cube, cube, relative_pose(scene.fixed[instance].X_WF, X_WM), reach);
   }
   /// Box of the moving cube, grown by the reach.
   Eigen::AlignedBox3d asked(const Pose& X_WM) const {

@@ -17,12 +17,9 @@ completeness::Judgement judge_world(const World& world, double cutoff,
   scene.cutoff = cutoff;
   const auto certified = make_method("certified", scene), exhaustive = make_method("exhaustive", scene);
   completeness::Judgement judgement;
-  LmdSet found, truth;
-  WorkCounters ignored;
   for (std::size_t frame = 0; frame < world.poses.size(); ++frame) {
     const Pose& pose = world.poses[frame];
-    certified->search(pose, found, ignored);
-    exhaustive->search(pose, truth, ignored);
+    const LmdSet found = lmds_at(*certified, pose), truth = lmds_at(*exhaustive, pose);
     std::string objection;
     judgement += completeness::judge(truth, found, scene, 1.0, objection);
     if (objection.empty()) continue;
@@ -56,12 +53,10 @@ completeness::Judgement judge_play(const Play& play, double cutoff,
     return own;
   };
   completeness::Judgement judgement;
-  LmdSet found, truth;
-  WorkCounters ignored;
   for (std::size_t frame = 0; frame < play.frames.size(); ++frame) {
     *poses = play.frames[frame];
-    certified->search(poses->front(), found, ignored);
-    exhaustive->search(poses->front(), truth, ignored);
+    const LmdSet found = lmds_at(*certified, poses->front());
+    const LmdSet truth = lmds_at(*exhaustive, poses->front());
     completeness::Judgement of_frame;
     for (std::size_t mover = 0; mover < scenes.size(); ++mover) {
       std::string objection;

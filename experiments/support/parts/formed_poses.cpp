@@ -3,7 +3,6 @@
 #include <support/parts/chances.h>
 #include <support/parts/formed_poses.h>
 
-#include <array>
 #include <cmath>
 #include <iterator>
 

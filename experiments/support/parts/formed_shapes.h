@@ -7,7 +7,6 @@
 #include <support/random.h>
 
 #include <span>
-#include <string_view>
 
 /// Random shapes that are no prisms: turned, swept, slit, ground, scanned or joined from solids.
 /// They are about a metre large, with mostly dyadic coordinates, and depend on the random numbers.

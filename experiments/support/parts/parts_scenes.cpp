@@ -3,7 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
-#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/lmd/body_distance.h>
 
 #include <support/parts/chances.h>
 #include <support/parts/formed_poses.h>
@@ -319,10 +319,7 @@ class PoseMaker {
   /// Distance is 1-Lipschitz in translation: a few steps of the remaining gap come near enough.
   void descend(Pose& pose, double gap) const {
     for (int step = 0; step < 6; ++step) {
-      const double left = nearest_pair(moving_.surface(), moving_.prepared<Hierarchy>(), fixed_.surface(),
-                                       fixed_.prepared<Hierarchy>(), pose)
-                              .distance -
-                          gap;
+      const double left = nearest_pair(moving_, fixed_, pose).distance - gap;
       if (!(left > 1e-3 * gap)) break;
       pose.translation.z() -= left;
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
-#include <lmdbench/snch/minimum_distance.h>
+#include <lmdbench/lmd/body_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/poses.h>
@@ -14,9 +14,7 @@ TEST(GrazingPoses, ReachTheGap) {
   const Body box("box", build_surface(make_box(Vec3(1.0, 2.0, 0.5))));
   constexpr double GAP = 0.01;
   for (const Pose& pose : grazing_poses(blob, box, GAP, 20, 5)) {
-    const double distance = nearest_pair(blob.surface(), blob.prepared<Hierarchy>(), box.surface(),
-                                         box.prepared<Hierarchy>(), pose)
-                                .distance;
+    const double distance = nearest_pair(blob, box, pose).distance;
     EXPECT_GE(distance, GAP * (1.0 - 1e-12));
     EXPECT_LE(distance, GAP * (1.0 + 2.0 * GAP_TOLERANCE));
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/child_process.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/sanitizers.h>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,29 +17,16 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <new>
 #include <string>
 #include <system_error>
 #include <utility>
 
-// Sanitizers reserve terabytes of address space, which a limit on it would refuse.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define LMDBENCH_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define LMDBENCH_SANITIZED 1
-#endif
-#endif
-
 namespace lmdbench {
 namespace {
 
-#ifdef LMDBENCH_SANITIZED
-constexpr bool LIMITS_ADDRESS_SPACE = false;
-#else
-constexpr bool LIMITS_ADDRESS_SPACE = true;
-#endif
+/// A limit would refuse what sanitizers reserve.
+constexpr bool LIMITS_ADDRESS_SPACE = !IS_SANITIZED;
 
 /// Exit statuses of the child beside 0.
 constexpr int OUT_OF_MEMORY = 41;

@@ -5,7 +5,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>

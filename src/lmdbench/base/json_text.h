@@ -4,9 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 /// Reads JSON text for people: places in messages, no lost keys, overrides from the command line.
 namespace lmdbench {

@@ -5,8 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <string>
-
 namespace lmdbench {
 namespace {
 

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace lmdbench {

@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace lmdbench {
 namespace {

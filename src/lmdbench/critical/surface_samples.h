@@ -8,7 +8,6 @@
 #include <lmdbench/lmd/scene.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -3,7 +3,6 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/decision/contact_tolerance.h>
 
-#include <cmath>
 #include <numbers>
 
 namespace lmdbench {

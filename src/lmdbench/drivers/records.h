@@ -9,7 +9,6 @@
 #include <lmdbench/lmd/work_counters.h>
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>

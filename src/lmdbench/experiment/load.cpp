@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/base/json_document.h>
-#include <lmdbench/base/json_schema.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/force/aggregation.h>

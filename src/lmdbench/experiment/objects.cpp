@@ -18,8 +18,7 @@ using Json = nlohmann::json;
 Pose pose_of(const Json& entry, const std::string& place, const std::string& file) {
   const Json& p = entry["translation_m"];
   const Json& q = entry["rotation_xyzw"];
-  Pose pose;
-  pose.translation = Vec3(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+  Pose pose{Vec3(p[0].get<double>(), p[1].get<double>(), p[2].get<double>())};
   pose.rotation =
       Eigen::Quaterniond(q[3].get<double>(), q[0].get<double>(), q[1].get<double>(), q[2].get<double>());
   if (!(std::abs(pose.rotation.norm() - 1.0) <= QUATERNION_LENGTH_TOLERANCE))

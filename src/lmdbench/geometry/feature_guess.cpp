@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance_steps.h>
 
-#include <array>
 #include <cstdint>
 
 // Vectors of unknown length cannot be members of structures.
@@ -15,8 +14,6 @@
 #include <lmdbench/geometry/lane_vector-inl.h>
 
 #include <hwy/highway.h>
-
-#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace lmdbench::HWY_NAMESPACE {

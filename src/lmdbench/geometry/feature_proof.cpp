@@ -6,8 +6,6 @@
 #include <lmdbench/geometry/triangle_distance_steps.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 // Steps of prove_by_features:

@@ -13,6 +13,20 @@ void Method::find_critical(const Pose&, CriticalSet&, WorkCounters&) {
   throw std::logic_error(description().name + " finds no critical pairs");
 }
 
+LmdSet lmds_at(Method& method, const Pose& X_WM) {
+  LmdSet lmds;
+  WorkCounters ignored;
+  method.search(X_WM, lmds, ignored);
+  return lmds;
+}
+
+CriticalSet critical_at(Method& method, const Pose& X_WM) {
+  CriticalSet critical;
+  WorkCounters ignored;
+  method.find_critical(X_WM, critical, ignored);
+  return critical;
+}
+
 LmdSet within_cutoff(const LmdSet& lmds, double cutoff) {
   LmdSet result;
   std::copy_if(lmds.begin(), lmds.end(), std::back_inserter(result),

@@ -38,6 +38,10 @@ class Method {
   virtual void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters);
 };
 
+/// What `search` and `find_critical` find, where nobody asks for their work.
+LmdSet lmds_at(Method& method, const Pose& X_WM);
+CriticalSet critical_at(Method& method, const Pose& X_WM);
+
 /// The pairs of a tracked set that count as LMDs: those within the cutoff.
 LmdSet within_cutoff(const LmdSet& lmds, double cutoff);
 

@@ -7,7 +7,6 @@
 #include <lmdbench/mesh/csr_rows.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>

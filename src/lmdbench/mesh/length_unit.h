@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/mesh/triangle_mesh.h>
-
 #include <filesystem>
 #include <optional>
 #include <span>

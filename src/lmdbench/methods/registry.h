@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <deque>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>

@@ -7,7 +7,6 @@
 #include <lmdbench/prepare/prepare.h>
 #include <lmdbench/probes/truth_probe.h>
 
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -8,7 +8,6 @@
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 

@@ -4,7 +4,6 @@
 
 #include <lmdbench/geometry/pose.h>
 
-#include <filesystem>
 #include <vector>
 
 namespace lmdbench {

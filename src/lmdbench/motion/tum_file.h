@@ -4,6 +4,7 @@
 
 #include <lmdbench/motion/path.h>
 
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>

@@ -3,7 +3,6 @@
 #include <lmdbench/phantom/passivity.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace lmdbench {

@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/file_descriptor.h>
 #include <lmdbench/base/limits.h>
+#include <lmdbench/base/sanitizers.h>
 #include <lmdbench/plugin/plugin_caller.h>
 #include <lmdbench/plugin/wire.h>
 
@@ -36,11 +37,8 @@ constexpr int RESTARTS = 3;
 /// Preparing two meshes may take so many times the limit of a search.
 constexpr int PREPARING_FACTOR = 30;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool LIMITS_MEMORY = false;  // Sanitizers reserve terabytes of address space.
-#else
-constexpr bool LIMITS_MEMORY = true;
-#endif
+/// A limit would refuse what sanitizers reserve.
+constexpr bool LIMITS_MEMORY = !IS_SANITIZED;
 
 [[noreturn]] void refuse(int error) {
   throw EnvironmentError("", "",

@@ -4,7 +4,6 @@
 #include <lmdbench/plugin/judged_contacts.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <optional>

@@ -5,7 +5,7 @@
 #include <dlfcn.h>
 
 #include <cfenv>
-#include <cstddef>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <stdexcept>

@@ -5,9 +5,7 @@
 #include <lmdbench/plugin/lmdbench_method.h>
 
 #include <array>
-#include <chrono>
 #include <cstdint>
-#include <memory>
 #include <string>
 
 /// A plugin in this process, behind calls that check what can be checked here. The child process

@@ -5,7 +5,6 @@
 #include <lmdbench/lmd/method_description.h>
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 /// Methods from outside: shared objects with the interface of lmdbench_method.h. An added method is

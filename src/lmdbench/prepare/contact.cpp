@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/prepare/contact.h>
 #include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/snch/minimum_distance.h>
@@ -145,8 +146,8 @@ NearestObjects::Nearest NearestObjects::at(const Pose& X_WM, double bound) {
     if (at_least > least) break;
     const Body &mover = *scene_.body(objects.mover), &other = *scene_.body(objects.other);
     const NearestPair pair = nearest_pair(
-        mover.surface(), mover.prepared<Hierarchy>(), other.surface(), other.prepared<Hierarchy>(),
-        relative_pose(scene_.pose(objects.other, X_WM), scene_.pose(objects.mover, X_WM)), least);
+        mover, other, relative_pose(scene_.pose(objects.other, X_WM), scene_.pose(objects.mover, X_WM)),
+        least);
     if (pair.triangle_moving < 0 || !(pair.distance < nearest.distance)) continue;
     nearest = {pair.distance, objects, pair.triangle_moving, pair.triangle_fixed};
     least = pair.distance;
@@ -158,7 +159,7 @@ bool NearestObjects::any_within(const Pose& X_WM, double distance) {
   return std::ranges::any_of(near_.within(distance, X_WM), [&](const NearPairs::Pair& pair) {
     const Body &mover = *scene_.body(pair.objects.mover), &other = *scene_.body(pair.objects.other);
     return within_distance(
-        mover.surface(), mover.prepared<Hierarchy>(), other.surface(), other.prepared<Hierarchy>(),
+        mover, other,
         relative_pose(scene_.pose(pair.objects.other, X_WM), scene_.pose(pair.objects.mover, X_WM)),
         distance);
   });
@@ -186,9 +187,7 @@ double SceneDistance::at(std::int64_t frame, const Pose& X_WM, double bound) {
 double nearest_distance(const Scene& scene, const Pose& X_WM, double bound) {
   double least = std::numeric_limits<double>::infinity();
   for (const FixedBody& fixed : scene.fixed) {
-    const NearestPair pair =
-        nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed->surface(),
-                     fixed->prepared<Hierarchy>(), X_WM, std::min(bound, least));
+    const NearestPair pair = nearest_pair(*scene.moving, *fixed, X_WM, std::min(bound, least));
     if (pair.triangle_moving >= 0) least = std::min(least, pair.distance);
   }
   return least;
@@ -214,8 +213,7 @@ std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>&
       continue;
     }
     in_contact.push_back(std::any_of(scene.fixed.begin(), scene.fixed.end(), [&](const auto& fixed) {
-      return within_distance(scene.moving->surface(), scene.moving->template prepared<Hierarchy>(),
-                             fixed->surface(), fixed->template prepared<Hierarchy>(), X_WM, scene.cutoff);
+      return within_distance(*scene.moving, *fixed, X_WM, scene.cutoff);
     }));
   }
   return in_contact;

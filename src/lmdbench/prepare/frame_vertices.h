@@ -7,10 +7,8 @@
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/mesh/placement.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 

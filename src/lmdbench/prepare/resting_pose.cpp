@@ -3,10 +3,9 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/force/aggregation.h>
-#include <lmdbench/lmd/method_description.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/prepare/resting_pose.h>
-#include <lmdbench/snch/first_approach.h>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -76,11 +75,8 @@ std::optional<Pose> approach(const Scene& scene, const Eigen::Quaterniond& R_WM,
   pose.translation = bounding_box_centre(scene.fixed.front()->surface().mesh) - R_WM * centre_M;
   double displacement = -std::numeric_limits<double>::infinity();
   for (const auto& fixed : scene.fixed)
-    displacement =
-        std::max(displacement, first_approach(scene.moving->surface(), scene.moving->prepared<Hierarchy>(),
-                                              fixed->surface(), fixed->prepared<Hierarchy>(), pose, from_W,
-                                              gap, GAP_TOLERANCE)
-                                   .displacement);
+    displacement = std::max(
+        displacement, first_approach(*scene.moving, *fixed, pose, from_W, gap, GAP_TOLERANCE).displacement);
   if (!std::isfinite(displacement)) return std::nullopt;
   pose.translation += displacement * from_W;
   return pose;

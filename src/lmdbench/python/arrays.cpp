@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 

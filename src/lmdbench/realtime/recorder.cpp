@@ -4,7 +4,6 @@
 #include <lmdbench/realtime/recorder.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace lmdbench {
 namespace {

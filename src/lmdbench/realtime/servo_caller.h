@@ -8,9 +8,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <thread>
-#include <vector>
 
 /// Caller of the servo loop: this program's grid, or a device's driver (own thread and rate).
 namespace lmdbench {

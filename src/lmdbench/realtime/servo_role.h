@@ -10,7 +10,6 @@
 #include <lmdbench/realtime/thread_use.h>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace lmdbench {

@@ -5,7 +5,6 @@
 #include <lmdbench/run/record_path.h>
 
 #include <cstddef>
-#include <utility>
 
 namespace lmdbench {
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/scene/broad_phase.h>
 #include <lmdbench/scene/near_pairs.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
 #include <iterator>
@@ -200,8 +200,7 @@ NearestInstance nearest_instance(const Scene& scene, const BroadPhase& phase, co
     if (at_least > nearest.distance) return false;
     const FixedBody& fixed = scene.fixed[instance];
     const NearestPair pair =
-        nearest_pair(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed->surface(),
-                     fixed->prepared<Hierarchy>(), relative_pose(fixed.X_WF, X_WM), nearest.distance);
+        nearest_pair(*scene.moving, *fixed, relative_pose(fixed.X_WF, X_WM), nearest.distance);
     if (pair.triangle_moving < 0 || !(pair.distance <= nearest.distance)) return true;
     const auto index = static_cast<std::int32_t>(instance);
     if (nearest.instance < 0 || pair.distance < nearest.distance || index < nearest.instance)

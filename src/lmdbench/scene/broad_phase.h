@@ -7,7 +7,6 @@
 #include <lmdbench/scene/instance_tree.h>
 #include <lmdbench/scene/mesh_bounds.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>

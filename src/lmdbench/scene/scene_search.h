@@ -11,7 +11,6 @@
 #include <lmdbench/scene/near_pairs.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>

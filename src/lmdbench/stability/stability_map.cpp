@@ -17,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <numbers>
 #include <random>
 #include <span>

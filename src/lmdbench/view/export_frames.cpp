@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
-#include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/methods/query.h>
@@ -209,8 +208,6 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
     force_of.push_back(result.reals("/methods/" + label + "/movers/force"));
   Series movers(exporter, "movers", track.method), lmds(exporter, "lmds-movers", track.method),
       forces(exporter, "forces-movers", track.method);
-  LmdSet set;
-  WorkCounters ignored;
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const std::size_t frame = track.frames[i];
     const auto& [time, pose] = track.poses[i];
@@ -239,7 +236,7 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
                                                 force.end());
       }
     }
-    exact->search(pose, set, ignored);
+    const LmdSet set = lmds_at(*exact, pose);
     for (const Lmd& lmd : set)
       add_lmd(pairs, lmd.point_moving, lmd.point_fixed, lmd.distance,
               static_cast<double>(lmd.feature_moving.kind), static_cast<double>(lmd.feature_fixed.kind));

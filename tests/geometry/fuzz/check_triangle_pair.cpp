@@ -10,8 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <iomanip>
-#include <sstream>
 
 namespace lmdbench::testing {
 namespace {
@@ -25,14 +23,7 @@ constexpr double SMALLEST_JUDGED = 0x1p-400;
 constexpr double LARGEST_JUDGED = 0x1p+400;
 
 std::string complaint(const char* promise, const TrianglePair& pair) {
-  std::ostringstream text;
-  text << promise << std::setprecision(17) << "\n";
-  for (const Triangle* t : {&pair.a, &pair.b}) {
-    text << "Triangle{";
-    for (const Vec3& p : *t) text << "Vec3(" << p[0] << ", " << p[1] << ", " << p[2] << "), ";
-    text << "}\n";
-  }
-  return text.str();
+  return promise + paste(pair);
 }
 
 double off(const Vec3& p, const Triangle& t) {

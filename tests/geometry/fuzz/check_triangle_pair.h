@@ -4,7 +4,6 @@
 
 #include <triangles/triangle_families.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/fuzz/check_triangle_pair.h"
 #include <gtest/gtest.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -19,17 +16,11 @@ namespace lmdbench::testing {
 namespace {
 
 TEST(FuzzCorpus, KeepsEveryPromise) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(LMDBENCH_SOURCE_DIR "/tests/geometry/fuzz/corpus")) {
-    files.push_back(entry.path());
-  }
+  const auto files = files_in(LMDBENCH_SOURCE_DIR "/tests/geometry/fuzz/corpus");
   ASSERT_GE(files.size(), 5U);
-  std::sort(files.begin(), files.end());
   for (const auto& path : files) {
-    std::ifstream file(path, std::ios::binary);
-    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
-                                          std::istreambuf_iterator<char>()};
+    const std::string content = read_text(path);
+    const std::vector<std::uint8_t> bytes(content.begin(), content.end());
     const auto pair = pair_from_bytes(bytes);
     ASSERT_TRUE(pair) << path;
     EXPECT_EQ(broken_promise(*pair), "") << path;

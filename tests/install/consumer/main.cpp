@@ -3,7 +3,6 @@
 #include <lmdbench/lmdbench.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 int main(int argc, char** argv) try {
   if (argc != 4) return 2;

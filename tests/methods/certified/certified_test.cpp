@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -22,6 +21,7 @@ namespace {
 using testing::grazing_pose;
 using testing::make_scene;
 using testing::moved;
+using testing::uniform;
 
 std::string describe(const LmdSet& lmds) {
   std::ostringstream text;

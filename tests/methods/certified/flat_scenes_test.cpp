@@ -17,7 +17,6 @@
 #include <cstdlib>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <tuple>
 #include <vector>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 #include <lmdbench/methods/exhaustive/feature_grid.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/polar_cone.h>
@@ -23,10 +23,8 @@ using testing::make_scene;
 using testing::moved;
 
 LmdSet truth(const Scene& scene, const Pose& pose) {
-  LmdSet lmds;
-  WorkCounters counters;
-  Exhaustive(scene).search(pose, lmds, counters);
-  return lmds;
+  Exhaustive method(scene);
+  return lmds_at(method, pose);
 }
 
 std::set<std::tuple<FeatureId, FeatureId>> feature_pairs(const LmdSet& lmds) {
@@ -73,10 +71,7 @@ TEST(Exhaustive, CrossedWedgesAreOneEdgePair) {
                   Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX());
   const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
   pose.translation = {0.013, 0.007, 2.0 * top};
-  pose.translation.z() -= nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                                       fixed.prepared<Hierarchy>(), pose)
-                              .distance -
-                          0.01;
+  pose.translation.z() -= nearest_pair(moving, fixed, pose).distance - 0.01;
   const LmdSet lmds = truth(scene, pose);
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::EDGE);
@@ -174,11 +169,7 @@ TEST(Exhaustive, HoldsTheMinimumDistanceAndIsSortedAndFreeOfDuplicates) {
     const LmdSet lmds = truth(scene, pose);
     ASSERT_FALSE(lmds.empty());
     const Body &moving = *scene.moving, &fixed = *scene.fixed[0];
-    EXPECT_NEAR(lmds[0].distance,
-                nearest_pair(moving.surface(), moving.prepared<Hierarchy>(), fixed.surface(),
-                             fixed.prepared<Hierarchy>(), pose)
-                    .distance,
-                1e-15);
+    EXPECT_NEAR(lmds[0].distance, nearest_pair(moving, fixed, pose).distance, 1e-15);
     EXPECT_TRUE(std::is_sorted(lmds.begin(), lmds.end(), lmd_less));
     EXPECT_EQ(feature_pairs(lmds).size(), lmds.size());
   }
@@ -199,13 +190,10 @@ TEST(Exhaustive, NearlyParallelFacesAreOneContactAtAnyTilt) {
   const Scene scene = make_scene(make_box({0.06, 0.06, 0.06}, 2), make_box({0.3, 0.3, 0.01}, 5), 0.005);
   for (int step = 0; step <= 60; ++step) {
     const double tilt = 1e-11 * std::pow(1.15, step);
-    Pose pose;
-    pose.translation = {0.01, 0.02, 0.0355};
-    pose.rotation = Eigen::AngleAxisd(tilt, Vec3(1.0, 0.3, 0.0).normalized());
+    const Pose pose{Vec3(0.01, 0.02, 0.0355),
+                    Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vec3(1.0, 0.3, 0.0).normalized()))};
     for (const char* name : {"exhaustive", "certified"}) {
-      LmdSet lmds;
-      WorkCounters counters;
-      make_method(name, scene)->search(pose, lmds, counters);
+      const LmdSet lmds = lmds_at(*make_method(name, scene), pose);
       EXPECT_EQ(lmds.size(), 1u) << name << ", tilt " << tilt;
     }
   }

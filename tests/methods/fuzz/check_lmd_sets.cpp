@@ -84,10 +84,7 @@ std::string text_of(const LmdSet& lmds) {
 }
 
 LmdSet search(const FuzzScene& fuzz, std::string_view name, const nlohmann::json& options = {}) {
-  LmdSet lmds;
-  WorkCounters counters;
-  make_method(name, fuzz.scene, options)->search(fuzz.X_WM, lmds, counters);
-  return lmds;
+  return lmds_at(*make_method(name, fuzz.scene, options), fuzz.X_WM);
 }
 
 }  // namespace

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "methods/fuzz/check_lmd_sets.h"
 #include <gtest/gtest.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <vector>
 
@@ -15,17 +12,11 @@ namespace lmdbench::testing {
 namespace {
 
 TEST(LmdFuzzCorpus, KeepsEveryPromise) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(LMDBENCH_SOURCE_DIR "/tests/methods/fuzz/corpus"))
-    files.push_back(entry.path());
+  const auto files = files_in(LMDBENCH_SOURCE_DIR "/tests/methods/fuzz/corpus");
   ASSERT_GE(files.size(), 5u);
-  std::sort(files.begin(), files.end());
   for (const auto& path : files) {
-    std::ifstream file(path, std::ios::binary);
-    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
-                                          std::istreambuf_iterator<char>()};
-    const auto fuzz = scene_from_bytes(bytes);
+    const std::string content = read_text(path);
+    const auto fuzz = scene_from_bytes(std::vector<std::uint8_t>(content.begin(), content.end()));
     ASSERT_TRUE(fuzz) << path;
     EXPECT_EQ(broken_promise(*fuzz), "") << path;
   }

@@ -8,6 +8,7 @@
 #include <lmdbench/methods/improved/improved.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <algorithm>
@@ -43,8 +44,7 @@ class ImprovedTest : public ::testing::Test {
       Exhaustive exhaustive(scene);
       for (int i = 0; i < samples; ++i) {
         const Pose pose = testing::grazing_pose(scene, 0.001, random);
-        LmdSet truth;
-        exhaustive.search(pose, truth, counters_);
+        const LmdSet truth = lmds_at(exhaustive, pose);
         ASSERT_FALSE(truth.empty());
         visit(scene, pose, truth);
       }
@@ -85,8 +85,7 @@ TEST_F(ImprovedTest, VisibilityCullsLeafPairsAndNeverAddsCandidates) {
 /// Boxes corner to corner: whole faces are beside each other.
 TEST_F(ImprovedTest, EachVisibilityPolicyCullsOnCoarseMeshes) {
   const Scene scene = make_scene(make_box({0.1, 0.1, 0.1}), make_box({0.1, 0.1, 0.1}), 0.05);
-  Pose pose;
-  pose.translation = {0.11, 0.12, 0.115};
+  const Pose pose{Vec3(0.11, 0.12, 0.115)};
   const auto culled = [&](Visibility visibility) {
     LmdSet candidates;
     WorkCounters work;
@@ -103,8 +102,7 @@ TEST_F(ImprovedTest, EachVisibilityPolicyCullsOnCoarseMeshes) {
 TEST_F(ImprovedTest, LossFreeReductionKeepsEachMinimumOnce) {
   on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
     Improved improved(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
-    LmdSet lmds;
-    improved.search(pose, lmds, counters_);
+    LmdSet lmds = lmds_at(improved, pose);
     improved.track(pose, lmds, counters_);
     for (const Lmd& lmd : truth) EXPECT_TRUE(holds(lmds, lmd));
     for (std::size_t i = 0; i < lmds.size(); ++i)
@@ -117,10 +115,8 @@ TEST_F(ImprovedTest, PublishedReductionKeepsASubsetWithTheNearestPair) {
   on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
     Improved published(scene, with(Visibility::OFF, Reduction::PUBLISHED));
     Improved loss_free(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
-    LmdSet candidates, all;
-    published.search(pose, candidates, counters_);
+    LmdSet candidates = lmds_at(published, pose), all = candidates;
     before += candidates.size();
-    all = candidates;
     published.track(pose, candidates, counters_);
     loss_free.track(pose, all, counters_);
     kept += candidates.size();
@@ -137,12 +133,10 @@ TEST_F(ImprovedTest, ThePublishedReductionLosesLmdsInAnOrderThatIgnoresDistance)
   std::size_t total = 0, nearest_first = 0, by_index = 0;
   on_poses(6, [&](const Scene& scene, const Pose& pose, const LmdSet& truth) {
     ImprovedOptions options = with(Visibility::OFF, Reduction::PUBLISHED);
-    LmdSet ordered, unordered;
     Improved first(scene, options);
     options.tracking_order = TrackingOrder::TRIANGLE_INDEX;
     Improved second(scene, options);
-    first.search(pose, ordered, counters_);
-    unordered = ordered;
+    LmdSet ordered = lmds_at(first, pose), unordered = ordered;
     first.track(pose, ordered, counters_);
     second.track(pose, unordered, counters_);
     total += truth.size();
@@ -160,17 +154,11 @@ TEST_F(ImprovedTest, TrackingDoesNotDependOnTheOrderOfTheSet) {
   std::mt19937_64 random(4);
   on_poses(4, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
     Improved improved(scene, with(Visibility::VERTEX_NORMAL, Reduction::PUBLISHED));
-    LmdSet first, second;
-    improved.search(pose, first, counters_);
-    second = first;
+    LmdSet first = lmds_at(improved, pose), second = first;
     std::shuffle(second.begin(), second.end(), random);
     improved.track(pose, first, counters_);
     improved.track(pose, second, counters_);
-    ASSERT_EQ(first.size(), second.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      EXPECT_TRUE(same_feature_pair(first[i], second[i]));
-      EXPECT_EQ(first[i].distance, second[i].distance);
-    }
+    testing::expect_same_lmds(first, second);
   });
 }
 
@@ -201,9 +189,8 @@ TEST_F(ImprovedTest, TrackingFollowsAMotionToTheMinimaOfTheNewPose) {
 TEST_F(ImprovedTest, TheCacheSavesDistancesOfNeighbours) {
   on_poses(1, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
     Improved improved(scene, with(Visibility::OFF, Reduction::PUBLISHED));
-    LmdSet lmds;
     WorkCounters work;
-    improved.search(pose, lmds, counters_);
+    LmdSet lmds = lmds_at(improved, pose);
     improved.track(pose, lmds, work);
     EXPECT_GT(work[Improved::Counter::CACHE_HITS], work[Improved::Counter::TRIANGLE_DISTANCES]);
   });
@@ -215,16 +202,13 @@ TEST_F(ImprovedTest, APlainCacheGivesTheSameSetsForTheSameWork) {
     Improved usual(scene, options);
     options.plain_cache = true;
     Improved plain(scene, options);
-    LmdSet first, second;
-    usual.search(pose, first, counters_);
-    second = first;
+    LmdSet first = lmds_at(usual, pose), second = first;
     for (int update = 0; update < 2; ++update) {  // the first update must leave nothing
       WorkCounters one, other;
       usual.track(pose, first, one);
       plain.track(pose, second, other);
       EXPECT_EQ(one, other);
-      ASSERT_EQ(first.size(), second.size());
-      for (std::size_t i = 0; i < first.size(); ++i) EXPECT_TRUE(same_feature_pair(first[i], second[i]));
+      testing::expect_same_lmds(first, second);
     }
   });
 }
@@ -232,8 +216,7 @@ TEST_F(ImprovedTest, APlainCacheGivesTheSameSetsForTheSameWork) {
 /// Decision E3: of overlapping meshes only the ablation rejects pairs that face away.
 TEST_F(ImprovedTest, AClampedSigmaRejectsAmongOverlappingSpheres) {
   const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
-  Pose pose;
-  pose.translation = {0.09, 0.001, 0.002};
+  const Pose pose{Vec3(0.09, 0.001, 0.002)};
   ImprovedOptions options = with(Visibility::OFF, Reduction::PUBLISHED);
   LmdSet lmds;
   WorkCounters usual, clamped;
@@ -277,10 +260,8 @@ TEST_F(ImprovedTest, LiteralG3LosesAlmostEverything) {
 TEST_F(ImprovedTest, AContactKeepsItsLastDirection) {
   const Scene scene = make_scene(make_sphere(0.05, 2), make_sphere(0.05, 2), 0.01);
   Improved improved(scene, with(Visibility::OFF, Reduction::LOSS_FREE));
-  Pose pose;
-  pose.translation = {0.101, 0.001, 0.002};
-  LmdSet lmds;
-  improved.search(pose, lmds, counters_);
+  Pose pose{Vec3(0.101, 0.001, 0.002)};
+  LmdSet lmds = lmds_at(improved, pose);
   improved.track(pose, lmds, counters_);
   ASSERT_FALSE(lmds.empty());
   const Vec3 apart = lmds[0].direction;
@@ -341,11 +322,9 @@ LmdSet track_without_memory(const Scene& scene, const Pose& pose, LmdSet lmds, b
 TEST_F(ImprovedTest, WhatIsRememberedOfTwoHubsIsWhatEveryWalkFinds) {
   for (const Reduction reduction : {Reduction::PUBLISHED, Reduction::LOSS_FREE}) {
     const Scene scene = make_scene(hub(11, -1.0), hub(11, 1.0), 0.3);
-    Pose pose;
-    pose.translation = {0.03, 0.02, 0.05};
+    Pose pose{Vec3(0.03, 0.02, 0.05)};
     Improved improved(scene, with(Visibility::OFF, reduction));
-    LmdSet lmds;
-    improved.search(pose, lmds, counters_);
+    LmdSet lmds = lmds_at(improved, pose);
     EXPECT_GT(lmds.size(), 100U);
     // The cache is of one update, not of the one before.
     for (const double height : {0.05, 0.06}) {
@@ -372,11 +351,9 @@ TEST_F(ImprovedTest, WhatIsRememberedOfTwoHubsIsWhatEveryWalkFinds) {
 /// 500 triangles each: 250,000 pairs, about as many candidates; walks would visit 4e10 pairs.
 TEST_F(ImprovedTest, TwoHubsAreTrackedInTime) {
   const Scene scene = make_scene(hub(125, -1.0), hub(125, 1.0), 0.3);
-  Pose pose;
-  pose.translation = {0.003, 0.002, 0.05};
+  const Pose pose{Vec3(0.003, 0.002, 0.05)};
   Improved improved(scene);
-  LmdSet lmds;
-  improved.search(pose, lmds, counters_);
+  LmdSet lmds = lmds_at(improved, pose);
   EXPECT_GT(lmds.size(), 10'000U);
   const std::clock_t begin = std::clock();
   improved.track(pose, lmds, counters_);

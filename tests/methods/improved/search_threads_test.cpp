@@ -4,6 +4,7 @@
 #include <lmdbench/snch/traversal.h>
 
 #include <gtest/gtest.h>
+#include <support/same_lmds.h>
 #include <support/scenes.h>
 
 #include <cstddef>
@@ -52,14 +53,6 @@ TEST(DualTraversal, ItsPlacesTogetherVisitWhatItVisitsInItsOrder) {
   }
 }
 
-/// Whether all fields of two LMDs have the same bits.
-bool same_bits(const Lmd& a, const Lmd& b) {
-  return a.distance == b.distance && a.point_moving == b.point_moving && a.point_fixed == b.point_fixed &&
-         a.direction == b.direction && a.feature_moving == b.feature_moving &&
-         a.feature_fixed == b.feature_fixed && a.triangle_moving == b.triangle_moving &&
-         a.triangle_fixed == b.triangle_fixed;
-}
-
 TEST(ImprovedSearchThreads, FindTheSameSetInTheSameOrderForTheSameWork) {
   const Scene scene = testing::make_scene(make_blob(0.04, 0.01, 4), make_blob(0.05, 0.012, 3), 0.015);
   std::mt19937_64 random(5);
@@ -78,8 +71,7 @@ TEST(ImprovedSearchThreads, FindTheSameSetInTheSameOrderForTheSameWork) {
       alone.search(pose, expected, work_alone);
       team.search(pose, found, work_team);
       EXPECT_EQ(work_team, work_alone);
-      ASSERT_EQ(found.size(), expected.size());
-      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(same_bits(found[i], expected[i])) << i;
+      testing::expect_same_lmds(found, expected);
       candidates += found.size();
     }
   }

@@ -7,18 +7,10 @@
 #include <gtest/gtest.h>
 #include <support/scenes.h>
 
-#include <cmath>
 #include <random>
 
 namespace lmdbench {
 namespace {
-
-LmdSet search(Method& method, const Pose& pose) {
-  LmdSet lmds;
-  WorkCounters counters;
-  method.search(pose, lmds, counters);
-  return lmds;
-}
 
 /// A box of 0.2 m; its lowest corner is `gap` over a plate's upper face at z = 0.05.
 Scene corner_over_plate(double cutoff) {
@@ -35,7 +27,7 @@ Pose on_corner(double gap) {
 
 TEST(Nearest, FindsACornerOverAFaceWithItsFeatures) {
   Nearest nearest(corner_over_plate(0.05));
-  const LmdSet lmds = search(nearest, on_corner(0.01));
+  const LmdSet lmds = lmds_at(nearest, on_corner(0.01));
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_NEAR(lmds[0].distance, 0.01, 1e-12);
   EXPECT_NEAR((lmds[0].point_fixed - Vec3(0.17, 0.05, 0.05)).norm(), 0.0, 1e-12);
@@ -48,14 +40,14 @@ TEST(Nearest, FindsACornerOverAFaceWithItsFeatures) {
 
 TEST(Nearest, SeesNothingBeyondTheCutoff) {
   Nearest nearest(corner_over_plate(0.05));
-  EXPECT_EQ(search(nearest, on_corner(0.0499)).size(), 1u);
-  EXPECT_TRUE(search(nearest, on_corner(0.0501)).empty());
-  EXPECT_EQ(search(nearest, on_corner(0.0499)).size(), 1u) << "and comes back";
+  EXPECT_EQ(lmds_at(nearest, on_corner(0.0499)).size(), 1u);
+  EXPECT_TRUE(lmds_at(nearest, on_corner(0.0501)).empty());
+  EXPECT_EQ(lmds_at(nearest, on_corner(0.0499)).size(), 1u) << "and comes back";
 }
 
 TEST(Nearest, ContactHasDistanceZeroAndNoDirectionOfItsOwn) {
   Nearest nearest(corner_over_plate(0.05));
-  const LmdSet lmds = search(nearest, on_corner(-0.01));
+  const LmdSet lmds = lmds_at(nearest, on_corner(-0.01));
   ASSERT_EQ(lmds.size(), 1u);
   EXPECT_EQ(lmds[0].distance, 0.0);
   EXPECT_TRUE(lmds[0].intersecting);
@@ -75,7 +67,8 @@ TEST(Nearest, IsTheNearestOfTheTrueSet) {
     const Vec3 step = 0.002 * testing::random_direction(random);
     for (int frame = 0; frame < 5; ++frame) {
       pose.translation += step;
-      const LmdSet truth = search(exhaustive, pose), found = search(warm, pose), again = search(cold, pose);
+      const LmdSet truth = lmds_at(exhaustive, pose), found = lmds_at(warm, pose),
+                   again = lmds_at(cold, pose);
       if (truth.empty() || truth.front().distance == 0.0) continue;
       ASSERT_EQ(found.size(), 1u);
       ASSERT_EQ(again.size(), 1u);
@@ -96,7 +89,7 @@ TEST(Nearest, SmallMeshesAreNoContact) {
   Nearest nearest(scene);
   std::mt19937_64 random(3);
   for (int i = 0; i < 10; ++i) {
-    const LmdSet lmds = search(nearest, testing::grazing_pose(scene, 0.00002, random));
+    const LmdSet lmds = lmds_at(nearest, testing::grazing_pose(scene, 0.00002, random));
     ASSERT_EQ(lmds.size(), 1u) << i;
     EXPECT_NEAR(lmds[0].distance, 0.00002, 1e-6 * 0.00002) << i;
   }

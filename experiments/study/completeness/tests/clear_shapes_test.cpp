@@ -22,10 +22,7 @@ using parts::PartsKind;
 using parts::PartsScene;
 
 LmdSet truth_of(const PartsScene& flat, const Pose& pose) {
-  LmdSet lmds;
-  WorkCounters counters;
-  make_method("exhaustive", flat.scene)->search(pose, lmds, counters);
-  return lmds;
+  return lmds_at(*make_method("exhaustive", flat.scene), pose);
 }
 
 /// Distances of a contact's points from vertices of their meshes: the same in every frame.

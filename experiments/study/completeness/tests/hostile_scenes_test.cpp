@@ -70,10 +70,7 @@ TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {
   Exhaustive exhaustive(hostile.scene);
   std::size_t contacts = 0;
   for (const Pose& pose : hostile.poses) {
-    LmdSet lmds, truth;
-    WorkCounters of_certified, of_exhaustive;
-    certified.search(pose, lmds, of_certified);
-    exhaustive.search(pose, truth, of_exhaustive);
+    const LmdSet lmds = lmds_at(certified, pose), truth = lmds_at(exhaustive, pose);
     ASSERT_EQ(lmds.size(), truth.size());
     for (std::size_t i = 0; i < lmds.size(); ++i) {
       contacts += lmds[i].intersecting;

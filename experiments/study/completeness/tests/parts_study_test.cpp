@@ -21,11 +21,9 @@ using parts::PoseFamily;
 
 /// Expects that every variant of `certified` has the set of `exhaustive`, and returns it.
 LmdSet expect_same_sets(const Scene& scene, double diagonal, const Pose& X_WM) {
-  LmdSet truth, set;
-  WorkCounters counters;
-  make_method("exhaustive", scene)->search(X_WM, truth, counters);
+  const LmdSet truth = lmds_at(*make_method("exhaustive", scene), X_WM);
   for (const Variant& variant : variants()) {
-    variant.make(scene)->search(X_WM, set, counters);
+    const LmdSet set = lmds_at(*variant.make(scene), X_WM);
     std::string objection;
     judge(truth, set, scene, diagonal, objection);
     EXPECT_EQ(objection, "") << variant.label;

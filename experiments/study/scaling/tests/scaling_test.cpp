@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/lmd/body_distance.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/registry.h>
-#include <lmdbench/snch/minimum_distance.h>
 
 #include <gtest/gtest.h>
 #include <study/scaling/measure.h>
@@ -25,15 +25,7 @@ TEST(Subdivided, KeepsTheSurfaceClosedAndInPlace) {
   const ValidityReport report = check_mesh(build_surface(fine));
   EXPECT_TRUE(report.closed);
   EXPECT_TRUE(report.consistently_oriented);
-  const auto area = [](const TriangleMesh& mesh) {
-    double sum = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle corners = mesh.triangle(static_cast<std::int32_t>(t));
-      sum += 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-    }
-    return sum;
-  };
-  EXPECT_DOUBLE_EQ(area(fine), 28.0);
+  EXPECT_DOUBLE_EQ(report.area, 28.0);
   EXPECT_EQ(subdivided(coarse, 0).triangles, coarse.triangles);
 }
 
@@ -49,9 +41,7 @@ TEST(LeadIn, SlidesTowardsThePoseInEqualSteps) {
   frames.push_back(end);
   for (std::size_t i = 0; i + 1 < frames.size(); ++i)
     EXPECT_NEAR(frames[i].rotation.angularDistance(frames[i + 1].rotation), TURN_RAD_PER_FRAME, 1e-9);
-  const double before = nearest_pair(blob.surface(), blob.prepared<Hierarchy>(), box.surface(),
-                                     box.prepared<Hierarchy>(), frames[9])
-                            .distance;
+  const double before = nearest_pair(blob, box, frames[9]).distance;
   EXPECT_NEAR(before, GAP, 0.2 * SLIDE_DIAGONALS_PER_FRAME * DIAGONAL) << "tangential";
 }
 

@@ -3,7 +3,6 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/decision/join_contacts.h>
 #include <lmdbench/geometry/triangle_distance.h>
-#include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/well_formed.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>

@@ -4,9 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace lmdbench {
 

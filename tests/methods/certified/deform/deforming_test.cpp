@@ -20,7 +20,6 @@
 #include <limits>
 #include <numbers>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 

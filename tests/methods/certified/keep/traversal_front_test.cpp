@@ -10,7 +10,6 @@
 #include <set>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace lmdbench {
 namespace {

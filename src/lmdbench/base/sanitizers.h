@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Whether a sanitizer watches this build: it takes time, reserves terabytes of address space, and
+/// ends a process before its memory is damaged.
+namespace lmdbench {
+
+#if defined(__has_feature)  // clang
+inline constexpr bool ADDRESS_SANITIZER = __has_feature(address_sanitizer);
+inline constexpr bool THREAD_SANITIZER = __has_feature(thread_sanitizer);
+#else
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool ADDRESS_SANITIZER = true;
+#else
+inline constexpr bool ADDRESS_SANITIZER = false;
+#endif
+#ifdef __SANITIZE_THREAD__
+inline constexpr bool THREAD_SANITIZER = true;
+#else
+inline constexpr bool THREAD_SANITIZER = false;
+#endif
+#endif
+inline constexpr bool IS_SANITIZED = ADDRESS_SANITIZER || THREAD_SANITIZER;
+
+}  // namespace lmdbench
