@@ -34,7 +34,8 @@ constexpr double LARGEST_PACE = 1.0;
 
 /// What is kept is made over several frames, which are searched from scratch meanwhile, and so is
 /// what a jolt makes due: so many tests a frame, or this part of the last search's or of those kept
-/// so far, if that is more. A kept test costs two to three.
+/// so far, if that is more. A kept test costs two to three (scripts/tuned_constants.py --only
+/// SHARE_OF_TESTS).
 constexpr std::size_t FEW_TESTS = 64, SHARE_OF_TESTS = 8;
 
 /// Vertices are fetched so many pairs ahead, indices, which are needed for that, twice as many.

@@ -24,7 +24,8 @@
 namespace lmdbench {
 
 /// Steps that axes and centres are moved by, and the first one's divisor: what was found for the
-/// frame before is nearly right.
+/// frame before is nearly right (scripts/tuned_constants.py --only REFIT_STEPS
+/// experiments/deforming.json).
 constexpr int REFIT_STEPS = 1, FIRST_REFIT_STEP = 4;
 /// Granted rounding: of lengths, over distances from the point of reference; of angles; and what is
 /// left of lengths whose squares vanish [m].
