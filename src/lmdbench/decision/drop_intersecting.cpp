@@ -12,6 +12,9 @@ namespace lmdbench {
 
 namespace {
 
+/// Of so few contacts the places are asked before features are collected.
+constexpr std::size_t FEW_CONTACTS = 128;
+
 /// Bound of the distance of points that two triangles share from their centroid (of a polygon).
 double crossing_reach(const ShapePair& pair, const Intersection& crossing) {
   const Triangle t = pair.fixed.surface.mesh.triangle(crossing.triangle_fixed);
@@ -73,16 +76,18 @@ std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const
 
 bool TouchingContacts::for_each_at(const Intersection& crossing,
                                    const std::function<bool(const Contact&)>& visit) {
-  const auto of_moving = star_of(pair_.moving, crossing.triangle_moving, at_moving_);
-  const auto of_fixed = star_of(pair_.fixed, crossing.triangle_fixed, at_fixed_);
   const double half_extent = crossing.dimension == 1   ? 0.5 * crossing.measure
                              : crossing.dimension == 2 ? crossing_reach(pair_, crossing)
                                                        : 0.0;
-  const auto goes_on = [&](const Entry& entry) {
+  const auto is_far = [&](const Entry& entry) {
     const Vec3 margin = Vec3::Constant(half_extent);
-    const Eigen::AlignedBox3d box(entry.box_W.min() - margin, entry.box_W.max() + margin);
-    return !box.contains(crossing.point) || visit(*entry.contact);
+    return !Eigen::AlignedBox3d(entry.box_W.min() - margin, entry.box_W.max() + margin)
+                .contains(crossing.point);
   };
+  if (entries_.size() <= FEW_CONTACTS && std::ranges::all_of(entries_, is_far)) return true;
+  const auto of_moving = star_of(pair_.moving, crossing.triangle_moving, at_moving_);
+  const auto of_fixed = star_of(pair_.fixed, crossing.triangle_fixed, at_fixed_);
+  const auto goes_on = [&](const Entry& entry) { return is_far(entry) || visit(*entry.contact); };
   const auto size_of = [](const auto& star) {
     return std::accumulate(star.begin(), star.end(), std::size_t{0},
                            [](std::size_t sum, const Features* features) { return sum + features->size(); });
