@@ -87,7 +87,6 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
   if (entries_.size() <= FEW_CONTACTS && std::ranges::all_of(entries_, is_far)) return true;
   const auto of_moving = star_of(pair_.moving, crossing.triangle_moving, at_moving_);
   const auto of_fixed = star_of(pair_.fixed, crossing.triangle_fixed, at_fixed_);
-  const auto goes_on = [&](const Entry& entry) { return is_far(entry) || visit(*entry.contact); };
   const auto size_of = [](const auto& star) {
     return std::accumulate(star.begin(), star.end(), std::size_t{0},
                            [](std::size_t sum, const Features* features) { return sum + features->size(); });
@@ -100,8 +99,8 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
       });
     };
     return std::ranges::all_of(entries_, [&](const Entry& entry) {
-      return !holds(of_moving, entry.features.first) || !holds(of_fixed, entry.features.second) ||
-             goes_on(entry);
+      return is_far(entry) || !holds(of_moving, entry.features.first) ||
+             !holds(of_fixed, entry.features.second) || visit(*entry.contact);
     });
   }
   for (const Features* features_moving : of_moving)
@@ -109,7 +108,7 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
       for (const Features* features_fixed : of_fixed)
         for (const FeatureId& g : *features_fixed)
           for (const Entry& entry : std::ranges::equal_range(entries_, std::pair(f, g), {}, &Entry::features))
-            if (!goes_on(entry)) return false;
+            if (!is_far(entry) && !visit(*entry.contact)) return false;
   return true;
 }
 
