@@ -77,8 +77,8 @@ bool find_crossings(Scratch& work) {
   return crossed;
 }
 
-/// As find_crossings where only some constraints bound the cone: their crossings satisfy all others,
-/// so all that lies between them does. @return whether they do
+/// As find_crossings where only some constraints bound the cone: their crossings satisfy all
+/// others, so all that lies between them does. @return whether they do
 bool find_crossings_of_some(Scratch& work, WingSet wings) {
   if (work.constraints.size() > MOST_WINGS) return false;
   thread_local std::vector<Constraint> all;

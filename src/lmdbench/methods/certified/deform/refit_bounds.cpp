@@ -306,8 +306,8 @@ HWY_INLINE void bound_body(WideNode& node, std::uint32_t lane, const Bodies& bod
   const bool has_axis = dot(axis, axis) > 0.0F;
   const auto radius_at = [&](std::size_t i) { return are_points ? zero : Lanes::load(bodies.radius.of + i); };
 
-  // How far each extends along the axis from its centre: to its sphere, or to the rim where its slab
-  // cuts the sphere off.
+  // How far each extends along the axis from its centre: to its sphere, or to the rim where its
+  // slab cuts the sphere off.
   Row extents;
   Number lowest = Lanes::set(std::numeric_limits<float>::max()), highest = -lowest;
   for_each_vector(bodies.count, [&](std::size_t i) {

@@ -55,11 +55,11 @@ class WideRefit {
 
   /// By kind: node * 8 + lane of each feature, or NO_SLOT.
   std::array<std::vector<std::uint32_t>, 3> slots_;
-  std::vector<SaddleWitness> witnesses_;     ///< #V: of vertices that are clear saddles.
-  std::vector<WingSet> bounding_wings_;      ///< #V: of vertices that are neither these nor clear peaks.
-  std::vector<std::uint32_t> parents_;       ///< #nodes: the slot above each; of the root 0.
-  std::vector<std::uint32_t> depths_;        ///< #nodes: number of nodes above each.
-  std::vector<std::uint32_t> marked_lanes_;  ///< #nodes: bits of lanes changed in or below.
+  std::vector<SaddleWitness> witnesses_;            ///< #V: of vertices that are clear saddles.
+  std::vector<WingSet> bounding_wings_;             ///< #V: of other vertices; 0: unknown.
+  std::vector<std::uint32_t> parents_;              ///< #nodes: the slot above each; of the root 0.
+  std::vector<std::uint32_t> depths_;               ///< #nodes: number of nodes above each.
+  std::vector<std::uint32_t> marked_lanes_;         ///< #nodes: bits of lanes changed in or below.
   std::vector<std::vector<std::uint32_t>> marked_;  ///< By depth: nodes with such lanes.
   double inner_cost_ = 0.0, leaf_cost_ = 0.0;       ///< Sums of lane_cost.
   double cost_when_built_ = 0.0;  ///< inner_over_leaves of the built tree, inner bounds refitted.
