@@ -43,8 +43,8 @@ using WingSet = std::uint32_t;
 /// and non-manifold features have no outer side and usually get all directions.
 /// @param shape  where given, the feature is the lead of one of its regions, chains or corners
 /// @param bounding  of a vertex, where given: wings that bounded the cone of nearly the same
-///   vertex, 0 for unknown; becomes those that bound this one. Where no other wing cuts off what these
-///   leave, none is searched.
+///   vertex, 0 for unknown; becomes those that bound this one. Where no other wing cuts off what
+///   these leave, none is searched.
 std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature,
                                   const ShapeComplex* shape = nullptr, WingSet* bounding = nullptr);
 
