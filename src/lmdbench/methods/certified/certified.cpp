@@ -100,12 +100,12 @@ struct SearchScratch {
 class BorrowedScratch {
  public:
   BorrowedScratch() {
-    for (std::atomic<SearchScratch*>& spare : spares_)
+    for (std::atomic<SearchScratch*>& spare : spares)
       if (spare.load() != nullptr && (scratch_ = spare.exchange(nullptr)) != nullptr) return;
     scratch_ = new SearchScratch;
   }
   ~BorrowedScratch() {
-    for (std::atomic<SearchScratch*>& spare : spares_)
+    for (std::atomic<SearchScratch*>& spare : spares)
       if (SearchScratch* none = nullptr; spare.compare_exchange_strong(none, scratch_)) return;
     delete scratch_;
   }
@@ -114,7 +114,7 @@ class BorrowedScratch {
   SearchScratch& operator*() const { return *scratch_; }
 
  private:
-  static inline std::array<std::atomic<SearchScratch*>, 64> spares_{};
+  static inline std::array<std::atomic<SearchScratch*>, 64> spares{};
 
   SearchScratch* scratch_ = nullptr;
 };
