@@ -81,7 +81,7 @@ bool find_crossings(Scratch& work) {
 /// others, so all that lies between them does. @return whether they do
 bool find_crossings_of_some(Scratch& work, WingSet wings) {
   if (work.constraints.size() > MOST_WINGS) return false;
-  thread_local std::vector<Constraint> all;
+  std::vector<Constraint>& all = work.set_aside;
   all.clear();
   std::swap(all, work.constraints);
   for (WingSet left = wings; left != 0; left &= left - 1)

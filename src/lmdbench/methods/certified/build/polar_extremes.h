@@ -29,6 +29,7 @@ struct Extremes {
 /// Scratch memory of one thread: caps are built for every feature of a mesh.
 struct Scratch {
   std::vector<Constraint> constraints;
+  std::vector<Constraint> set_aside;  ///< Of the cone of some of them.
   Extremes extremes;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -77,6 +78,12 @@ struct Vector {
 HWY_INLINE Vectors spread(const Vector& v) {
   return {Lanes::set(v.x), Lanes::set(v.y), Lanes::set(v.z)};
 }
+HWY_INLINE Vectors load(const float* x, const float* y, const float* z) {
+  return {Lanes::load(x), Lanes::load(y), Lanes::load(z)};
+}
+HWY_INLINE Vectors axes_of(const WideNode& node, std::uint32_t first) {
+  return load(node.axis[0] + first, node.axis[1] + first, node.axis[2] + first);
+}
 HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -107,6 +114,12 @@ HWY_INLINE void extend(Vectors& low, Vectors& high, const Vectors& p) {
   high = {largest_of(high.x, p.x), largest_of(high.y, p.y), largest_of(high.z, p.z)};
 }
 
+/// Sine of the angle between unit vectors, from the square of their difference.
+HWY_INLINE Number sine_of_angle(Number squared) {
+  const Number squared_half_cosine = Lanes::set(1.0F) - Lanes::set(0.25F) * squared;
+  return root(largest_of(Lanes::set(0.0F), squared * squared_half_cosine));
+}
+
 /// A size as it is stored: granted rounding added.
 HWY_INLINE Number rounded_outwards(Number size, Number rounding) {
   return (size + rounding) * Lanes::set(1.0F + REFIT_LENGTH_ROUNDING);
@@ -116,12 +129,11 @@ HWY_INLINE Number rounded_outwards(Number size, Number rounding) {
 void bound_features(WideNode& node, std::uint32_t lanes, const LaneCorners& corners, float rounding) {
   const Number half = Lanes::set(0.5F);
   for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
-    const Vectors axis{Lanes::load(node.axis[0] + first), Lanes::load(node.axis[1] + first),
-                       Lanes::load(node.axis[2] + first)};
+    const Vectors axis = axes_of(node, first);
     std::array<Vectors, LaneCorners::CORNERS> p;
     for (std::size_t k = 0; k < p.size(); ++k) {
       const std::size_t at = k * WIDE_WIDTH + first;
-      p[k] = {Lanes::load(corners.x + at), Lanes::load(corners.y + at), Lanes::load(corners.z + at)};
+      p[k] = load(corners.x + at, corners.y + at, corners.z + at);
     }
     Vectors low = p[0], high = p[0];
     Number low_along = dot(p[0], axis), high_along = low_along, squared_far = dot(p[0], p[0]);
@@ -166,9 +178,7 @@ struct Row {
 };
 struct Rows {
   Row x, y, z;
-  HWY_INLINE Vectors at(std::size_t i) const {
-    return {Lanes::load(x.of + i), Lanes::load(y.of + i), Lanes::load(z.of + i)};
-  }
+  HWY_INLINE Vectors at(std::size_t i) const { return load(x.of + i, y.of + i, z.of + i); }
   HWY_INLINE Vector one(std::size_t i) const { return {x.of[i], y.of[i], z.of[i]}; }
 };
 
@@ -279,7 +289,7 @@ HWY_INLINE bool bound_cone(WideNode& node, std::uint32_t lane, const Cones& cone
     const Vectors apart = cones.axes.at(i) - u;
     const Number squared = dot(apart, apart);
     const Number cosine = one - Lanes::set(0.5F) * squared;
-    const Number sine = root(largest_of(Lanes::set(0.0F), squared * (one - Lanes::set(0.25F) * squared)));
+    const Number sine = sine_of_angle(squared);
     const Number own_sine = Lanes::load(cones.sine.of + i);
     cosines = least_of(cosines, cosine * Lanes::load(cones.cosine.of + i) - sine * own_sine);
     // Of the sum of two angles up to 90 degrees, and more.
@@ -319,8 +329,7 @@ HWY_INLINE void bound_body(WideNode& node, std::uint32_t lane, const Bodies& bod
       const Number along = dot(u, own);
       const Number facing = select(along < zero, -one, one);
       const Vectors apart{own.x - facing * u.x, own.y - facing * u.y, own.z - facing * u.z};
-      const Number squared = dot(apart, apart);
-      const Number sine = root(largest_of(zero, squared * (one - Lanes::set(0.25F) * squared)));
+      const Number sine = sine_of_angle(dot(apart, apart));
       const Number rim = thickness * least_of(one, magnitude(along)) +
                          root((radius - thickness) * (radius + thickness)) * sine +
                          Lanes::set(REFIT_LENGTH_ROUNDING) * radius;
@@ -374,7 +383,8 @@ HWY_INLINE void bound_body(WideNode& node, std::uint32_t lane, const Bodies& bod
   }
 
   const Vector stored = reference + best;
-  const Vectors from = spread(stored - reference);
+  const Vector centre_from_reference = stored - reference;
+  const Vectors from = spread(centre_from_reference);
   Number radius = zero, thickness = zero, far = zero;
   for_each_vector(bodies.count, [&](std::size_t i) {
     const Vectors p = bodies.centres.at(i), to = p - from;
@@ -382,7 +392,6 @@ HWY_INLINE void bound_body(WideNode& node, std::uint32_t lane, const Bodies& bod
     thickness = largest_of(thickness, magnitude(dot(to, u)) + Lanes::load(extents.of + i));
     far = largest_of(far, root(are_points ? dot(p, p) : dot(to, to)));
   });
-  const Vector centre_from_reference = stored - reference;
   const float granted =
       rounding + VANISHING_LENGTH +
       REFIT_LENGTH_ROUNDING *
@@ -390,9 +399,7 @@ HWY_INLINE void bound_body(WideNode& node, std::uint32_t lane, const Bodies& bod
   node.centre[0][lane] = stored.x;
   node.centre[1][lane] = stored.y;
   node.centre[2][lane] = stored.z;
-  const auto outwards = [&](Number size) {
-    return (largest(size) + granted) * (1.0F + REFIT_LENGTH_ROUNDING);
-  };
+  const auto outwards = [&](Number size) { return largest(rounded_outwards(size, Lanes::set(granted))); };
   node.radius[lane] = outwards(radius);
   node.thickness[lane] = has_axis ? outwards(thickness) : UNBOUNDED_THICKNESS;
 }
@@ -403,8 +410,7 @@ void bound_node(WideNode& node, std::uint32_t lane, const AllLanesBelow& below, 
   const auto has_axis = [](const WideNode& of, std::uint32_t lanes) {
     std::uint32_t bits = 0;
     for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
-      const Vectors axis{Lanes::load(of.axis[0] + first), Lanes::load(of.axis[1] + first),
-                         Lanes::load(of.axis[2] + first)};
+      const Vectors axis = axes_of(of, first);
       bits |= Lanes::bits(dot(axis, axis) > Lanes::set(0.0F), first);
     }
     return (lanes & ~bits) == 0;
