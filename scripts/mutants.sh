@@ -5,6 +5,7 @@
 # builds and runs the test program that must notice, and prints a table. Exit code 1 if a defect
 # survives, 2 if one does not fit the code. Only committed code is tried.
 #   --only NAME   this one; may be given again
+#   --share K/N   the K-th of N parts of the list
 #   --keep        leave the worktree and its build (build/mutants) for the next run
 set -uo pipefail
 # shellcheck source=scripts/lib.sh
@@ -15,6 +16,7 @@ TREE="$ROOT/build/mutants/tree"
 TIMEOUT=120  # seconds of a test program; a defect that never ends is noticed as well
 only=()
 keep=false
+share=1/1
 while (($# > 0)); do
   case "$1" in
     --only)
@@ -22,8 +24,15 @@ while (($# > 0)); do
       only+=("$2")
       shift
       ;;
+    --share)
+      if ! [[ ${2:-} =~ ^([1-9][0-9]*)/([1-9][0-9]*)$ ]] || ((BASH_REMATCH[1] > BASH_REMATCH[2])); then
+        die 2 "--share needs a part of parts (remedy: --share 1/6)"
+      fi
+      share="$2"
+      shift
+      ;;
     --keep) keep=true ;;
-    *) die 2 "unknown argument '$1' (remedy: ./scripts/mutants.sh [--only NAME]... [--keep])" ;;
+    *) die 2 "unknown argument '$1' (remedy: ./scripts/mutants.sh [--only NAME]... [--share K/N] [--keep])" ;;
   esac
   shift
 done
@@ -58,6 +67,9 @@ mutants() {
     /^    equivalent: / { reason = substr($0, 17) }
     END { row_ends() }' "$LIST"
 }
+mapfile -t rows < <(mutants)
+part=${share%/*} parts=${share#*/}
+first=$(((part - 1) * ${#rows[@]} / parts)) end=$((part * ${#rows[@]} / parts))
 
 # plant FILE FROM TO: replaces the text, which must occur exactly once.
 plant() {
@@ -121,7 +133,7 @@ while IFS=$'\037' read -r -u 3 name file from to program filter reason; do
     report "$name" "$file" "${first:-$program, which did not end well}" "killed"
   fi
   git -C "$TREE" checkout --quiet --force -- "$file"
-done 3< <(mutants)
+done 3< <(printf '%s\n' "${rows[@]:first:end-first}")
 printf '\n%d killed, %d survive, %d equivalent, %d broken\n' "$killed" "$survived" "$equivalent" "$broken"
 ((killed + survived + equivalent + broken > 0)) || die 2 "no such defect (remedy: its names: grep '^  [a-z]' scripts/mutants.txt)"
 ((broken == 0)) || exit 2

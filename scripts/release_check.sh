@@ -1,23 +1,28 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
-# All claims of the project at the commit that is checked out, part by part; a new call continues.
-# Leaves results/release/COMMIT/PART.txt (the part's output) and page.md: verdict, time and last
-# line of each. Exit code 1 if a part failed or is missing.
+# All claims of the project at one commit, part by part; a new call continues, on another day or
+# machine too. The commit is the last one that changed more than pages and results, so that what was
+# measured can be committed. Leaves results/release/COMMIT/PART.txt (the part's output, not
+# committed), PART.verdict and page.md. Exit code 1 if a part failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
 #   LMDBENCH_POSES=N                    poses of each study and judge (1000000)
 #   LMDBENCH_SEED=N                     their seed (the day, such as 20261124)
+#   LMDBENCH_FUZZ_MINUTES=N             minutes of fuzzing in all (360), a third of them for `lmd`
 set -uo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT" || exit 1
 
-PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants completeness hostile parts solids
+PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
   shapes metamorphic rest fuzz-readers fuzz-lmd regression reference)
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
+FUZZ_MINUTES="${LMDBENCH_FUZZ_MINUTES:-360}"
+READERS=(off ply obj import tum experiment path manifest sweep journal result triangle)
+MACHINE="$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1), $JOBS cores"
 
 # in_fresh_clone COMMAND: for a newcomer, whose folder only has committed files.
 in_fresh_clone() {
@@ -35,6 +40,14 @@ study() { build_preset release >&2 && build/release/lmdbench-study "$@" --seed "
 all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; }
 generated_parts() { study parts --generator "$1" --poses "$(of_each 20)"; }
 
+# What a part was asked for, beside its name.
+conditions() {
+  case $1 in
+  hostile | parts | solids | shapes | metamorphic | rest) printf '%s poses, seed %s' "$POSES" "$SEED" ;;
+  completeness) printf 'seed %s' "$SEED" ;;
+  fuzz-*) printf '%s minutes in all' "$FUZZ_MINUTES" ;;
+  esac
+}
 part() {
   case $1 in
   setup) scripts/setup.sh ;;
@@ -47,16 +60,15 @@ part() {
   smallest) build_preset release >&2 && python3 scripts/smallest_build.py ;;
   packages) scripts/package.sh --check ;;
   cluster) scripts/cluster_test.sh ;;
-  mutants) scripts/mutants.sh ;;
+  mutants-*) scripts/mutants.sh --share "${1#*-}/6" --keep ;;
   completeness) all_meshes && study completeness --poses 1000 ;;
   hostile) study hostile --poses "$((POSES / 2))" --frames "$((POSES / 2))" ;;
   parts) generated_parts parts ;;
   solids | shapes) generated_parts "$1" ;;
   metamorphic) study metamorphic --poses "$(of_each 35)" ;;
   rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 35)" --seed "$SEED" ;;
-  # Six hours of processor time, two of them for what all methods need.
-  fuzz-readers) scripts/fuzz.sh 20 off ply obj import tum experiment path manifest sweep journal result triangle ;;
-  fuzz-lmd) scripts/fuzz.sh 120 lmd ;;
+  fuzz-readers) scripts/fuzz.sh "$(((FUZZ_MINUTES * 2 / 3 + ${#READERS[@]} - 1) / ${#READERS[@]}))" "${READERS[@]}" ;;
+  fuzz-lmd) scripts/fuzz.sh "$(((FUZZ_MINUTES + 2) / 3))" lmd ;; # what all methods need
   regression)
     local before
     before="$(git describe --tags --abbrev=0 --match 'v*' HEAD^ 2>/dev/null)" || before=""
@@ -78,7 +90,7 @@ for name in "${chosen[@]}"; do
 done
 [[ -z "$(git status --porcelain)" ]] ||
   die 2 "the tree differs from its commit (remedy: commit or stash; 'git status' shows what)"
-COMMIT="$(git rev-parse --short HEAD)"
+COMMIT="$(git log -1 --format=%h -- . ':!results' ':!*.md')"
 OUT="$ROOT/results/release/$COMMIT"
 mkdir -p "$OUT"
 
@@ -87,23 +99,24 @@ for name in "${chosen[@]}"; do
   say "== $name"
   started=$EPOCHREALTIME status=0
   (part "$name") >"$OUT/$name.txt" 2>&1 || status=$?
-  printf '%s|%s\n' "$status" "$(seconds_since "$started")" >"$OUT/$name.verdict"
+  last="$(grep -v '^[[:space:]]*$' "$OUT/$name.txt" | tail -n 1 | tr '|' '/' | cut -c1-120)"
+  printf '%s|%s|%s|%s|%s|%s\n' "$status" "$(seconds_since "$started")" "$(date +%F)" "$MACHINE" "$(conditions "$name")" "$last" \
+    >"$OUT/$name.verdict"
   say "   exit code $status, $(seconds_since "$started")"
 done
 
 failed=0
 {
   # shellcheck disable=SC2016  # code spans, no commands
-  printf '# lmdbench at %s\n\nMade by `scripts/release_check.sh`, %s poses a study, seed %s, on %s with %s cores.\n\n' "$COMMIT" "$POSES" "$SEED" \
-    "$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)" "$JOBS"
-  printf '| part | verdict | time | last line |\n|---|---|---|---|\n'
+  printf '# lmdbench at %s\n\nMade by `scripts/release_check.sh`, part by part.\n\n' "$COMMIT"
+  printf '| part | verdict | time | date | machine | conditions | last line |\n|---|---|---|---|---|---|---|\n'
   for name in "${PARTS[@]}"; do
-    status=missing time=""
-    [[ ! -s $OUT/$name.verdict ]] || IFS='|' read -r status time <"$OUT/$name.verdict"
+    status=missing
+    seconds="" day="" machine="" asked="" last=""
+    [[ ! -s $OUT/$name.verdict ]] || IFS='|' read -r status seconds day machine asked last <"$OUT/$name.verdict"
     case $status in 0) verdict="passed" ;; missing) verdict="not run" ;; *) verdict="FAILED ($status)" ;; esac
     [[ $status == 0 ]] || failed=1
-    last="$(grep -v '^[[:space:]]*$' "$OUT/$name.txt" 2>/dev/null | tail -n 1 | tr '|' '/' | cut -c1-120)"
-    printf '| %s | %s | %s | %s |\n' "$name" "$verdict" "$time" "$last"
+    printf '| %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$verdict" "$seconds" "$day" "$machine" "$asked" "$last"
   done
 } >"$OUT/page.md"
 cat "$OUT/page.md"

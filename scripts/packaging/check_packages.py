@@ -109,7 +109,8 @@ def life(build, archive, scratch, checks):
     checks.that(code == 0, f"installs {said[-2000:] if code else ''}")
     use(root, checks, "installed")
     code, said = install(2)
-    checks.that(code == 0 and "0.1.0-2" in root("dpkg-query", "-W", "lmdbench")[1], f"upgrades {said[-2000:] if code else ''}")
+    upgraded = os.path.basename(debs[0]).split("_")[1].split("-")[0] + "-2"
+    checks.that(code == 0 and upgraded in root("dpkg-query", "-W", "lmdbench")[1], f"upgrades {said[-2000:] if code else ''}")
     use(root, checks, "upgraded")
 
     ours = [name.split("_")[0] for name in map(os.path.basename, debs)]

@@ -102,7 +102,7 @@ class LmdSearch {
 /// The methods of this build, in the order of reports. What they do: `lmdbench query --help`.
 std::vector<std::string> method_names();
 
-/// "0.1.0"
+/// "1.0.0"
 std::string library_version();
 
 }  // namespace lmdbench

@@ -13,7 +13,7 @@ namespace lmdbench {
 
 /// What this program was built from and how.
 struct BuildInfo {
-  std::string version;         ///< "0.1.0"
+  std::string version;         ///< "1.0.0"
   std::string git_commit;      ///< 40 hexadecimal digits, or "unknown" outside a git working copy
   std::string git_dirty;       ///< "yes" when sources differ from the commit, "no", or "unknown"
   std::string compiler;        ///< "GNU 12.2.0"
@@ -26,7 +26,7 @@ struct BuildInfo {
 /// The git state is that of the moment of the build, not of the configuration.
 const BuildInfo& build_info();
 
-/// "lmdbench 0.1.0 (commit, dirty flag), compiler, flags, library versions", for `--version`.
+/// "lmdbench 1.0.0 (commit, dirty flag), compiler, flags, library versions", for `--version`.
 std::string version_text();
 
 /// A library that a build may do without (the options LMDBENCH_WITH_... of CMakeLists.txt).
