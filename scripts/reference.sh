@@ -126,7 +126,7 @@ part() {
       figure rivals --program "$BUILD/lmdbench" --out "$OUT"
       ;;
     scaling)
-      "$BUILD/lmdbench" mesh build dragon-871k >&2
+      "$BUILD/lmdbench" mesh build dragon-11k dragon-47k dragon-202k dragon-871k >&2
       study scaling --json "$OUT/scaling.json"
       study scaling --only dragon --large --json "$OUT/dragon.json"
       figure scaling "$OUT/scaling.json" "$OUT/dragon.json" --out "$OUT"
