@@ -92,7 +92,7 @@ def write_whole(page, whole):
     groups = {}
     for heading, block in whole:
         names, *rows = rows_of(block)
-        groups.setdefault(tuple(names), []).extend([heading, *(cell.strip("*") for cell in row)] for row in rows)
+        groups.setdefault(tuple(names), []).extend([heading, *(cell.replace("**", "").strip("*") for cell in row)] for row in rows)
     folder = os.path.join(os.path.dirname(page), "tables")
     os.makedirs(folder, exist_ok=True)
     for number, (names, rows) in enumerate(groups.items(), 1):

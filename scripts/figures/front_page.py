@@ -57,7 +57,10 @@ def draw(found):
         axis.plot([point[1] for point in line], [point[3] for point in line], color=colour, marker="o", ms=4.5, mec="white", mew=0.5, zorder=3)
         for every, median, _, error in line:
             if every in NUMBERED:
-                axis.annotate(str(every), (median, error), xytext=(0, -10), textcoords="offset points", ha="center", fontsize=6.5, color=colour)
+                # Not below the leftmost: the line may go straight down from there.
+                beside = every == max(NUMBERED)
+                axis.annotate(str(every), (median, error), xytext=(-5, -2.5) if beside else (0, -10), textcoords="offset points",
+                              ha="right" if beside else "center", fontsize=6.5, color=colour)
         axis.annotate(name, (line[-1][1], line[-1][3]), xytext=offset, textcoords="offset points", color=colour, fontsize=8, fontweight="bold")
     axis.axvline(1000, color=style.GREY, lw=0.8, ls="--")
     axis.annotate("1 ms: the frame is over", (1000, 120), xytext=(-4, 0), textcoords="offset points", ha="right", va="center",
