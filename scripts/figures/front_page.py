@@ -47,7 +47,7 @@ def points(page, scene):
 
 def draw(found):
     figure, axis = plt.subplots(figsize=(style.TWO_COLUMNS_IN, 3.3), layout="constrained")
-    axis.set(xscale="log", yscale="log", xlim=(0.4, 1150), ylim=(0.95, 150), xlabel="time a frame [\u00b5s]: median, and to the right 99 % of frames",
+    axis.set(xscale="log", yscale="log", xlim=(0.3, 1150), ylim=(0.95, 150), xlabel="time a frame [\u00b5s]: median, and to the right 99 % of frames",
              ylabel="force error, RMS [% of $F_{max}$]")
     axis.axhspan(0.95, 1.9, color="#F0F0F0", lw=0, zorder=0)
     for series, (colour, name, offset) in METHODS.items():
@@ -65,7 +65,7 @@ def draw(found):
     axis.axvline(1000, color=style.GREY, lw=0.8, ls="--")
     axis.annotate("1 ms: the frame is over", (1000, 120), xytext=(-4, 0), textcoords="offset points", ha="right", va="center",
                   fontsize=7, color="#555555")
-    axis.annotate("numbers: frames from one search to the next", (0.42, 7), fontsize=7, color="#555555")
+    axis.annotate("numbers: frames from one search to the next", (0.32, 7), fontsize=7, color="#555555")
     axis.xaxis.set_major_formatter(FuncFormatter(lambda at, _: f"{at:g}"))
     axis.yaxis.set_major_locator(FixedLocator([ZERO, 2, 5, 10, 20, 50, 100]))
     axis.yaxis.set_major_formatter(FuncFormatter(lambda at, _: "0" if at == ZERO else f"{at:g}"))
