@@ -129,6 +129,7 @@ part() {
       "$BUILD/lmdbench" mesh build dragon-11k dragon-47k dragon-202k dragon-871k >&2
       study scaling --json "$OUT/scaling.json"
       study scaling --only dragon --large --json "$OUT/dragon.json"
+      echo
       figure scaling "$OUT/scaling.json" "$OUT/dragon.json" --out "$OUT"
       ;;
     stability) figure stability --program "$BUILD/lmdbench" --out "$OUT" ;;

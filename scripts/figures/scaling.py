@@ -190,7 +190,7 @@ def draw(studies):
         panel.set_xticks([], minor=True)
         panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     keys = [Line2D([], [], color=colour, ls=line, lw=1.4, label=label) for label, colour, line in looks(studies).values()]
-    first = figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.07, 0.965), ncol=3, handlelength=2.6,
+    first = figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.07, 0.965), ncol=4, handlelength=2.6,
                           columnspacing=1.4, borderpad=0.1)
     figure.add_artist(first)
     marks = [Line2D([], [], color="#444444", ls="none", marker=marker, ms=4.5, mew=0, label=STUDY_LABELS[study])
