@@ -6,7 +6,8 @@
 /// ends a process before its memory is damaged.
 namespace lmdbench {
 
-#if defined(__has_feature)  // clang
+// Of clang alone: other libraries define __has_feature as 0 where a compiler has none.
+#ifdef __clang__
 inline constexpr bool ADDRESS_SANITIZER = __has_feature(address_sanitizer);
 inline constexpr bool THREAD_SANITIZER = __has_feature(thread_sanitizer);
 #else
