@@ -82,6 +82,8 @@ TEST_F(HostilePlugins, LoseNoResultAndMarkTheirFrames) {
     return std::accumulate(frames.begin(), frames.end(), std::int64_t{0});
   };
   for (const auto& [name, mark] : KINDS) {
+    // Its memory has no limit there.
+    if (THREAD_SANITIZER && name == "leak") continue;
     EXPECT_GT(marks(name, mark), 0) << name;
     EXPECT_LE(marks(name, mark), 40) << name;
     EXPECT_EQ(marks("good", mark), 0) << name;
@@ -169,7 +171,7 @@ TEST_F(HostilePlugins, AreFoundByTheCheck) {
   const Outcome pushes = lmdbench("plugin check " + FOLDER + "pushes.so");
   EXPECT_EQ(pushes.code, 0) << pushes.out;
   EXPECT_THAT(pushes.out, AllOf(HasSubstr("passed  pushes: gives its force"), HasSubstr("no set is judged")));
-  const std::string of_write = ADDRESS_SANITIZER ? "ended its process" : "crashed";
+  const std::string of_write = IS_SANITIZED ? "ended its process" : "crashed";
   const std::map<std::string, std::string> said{{"crash", "crashed"},
                                                 {"write_past_end", of_write},
                                                 {"not_a_number", "are not finite"},
