@@ -21,7 +21,7 @@ started=$EPOCHREALTIME
 trap 'print_steps; say "  in all: $(seconds_since "$started")"' EXIT
 
 # The meshes that the experiments name, each once.
-build_meshes() {
+meshes_of_experiments() {
   local names meshes
   names="$("$PYTHON" - "${EXPERIMENTS[@]}" <<'PYTHON_END'
 import json
@@ -73,7 +73,7 @@ SOFT=results/bunny-soft.h5
 SWEEP=results/quick.h5
 
 step "Build" build_program >&2
-step "Meshes" build_meshes
+step "Meshes" meshes_of_experiments
 for experiment in "${EXPERIMENTS[@]}"; do
   step "Experiment $experiment" run_experiment "$experiment"
 done
