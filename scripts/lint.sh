@@ -27,7 +27,16 @@ format() {
 shell_scripts() {
   local files
   mapfile -t files < <(sources '*.sh' '.ci/run')
-  shellcheck -x "${files[@]}" && say "shellcheck: ${#files[@]} files"
+  shellcheck -x "${files[@]}" && shadows_nothing "${files[@]}" && say "shellcheck: ${#files[@]} files"
+}
+# A function that has the name of one of lib.sh takes its place there as well, without end if it
+# calls it.
+shadows_nothing() {
+  local shared found
+  shared="$(sed -nE 's/^([a-z_]+)\(\).*/\1/p' scripts/lib.sh | paste -sd '|')"
+  found="$(printf '%s\n' "$@" | grep -vxF scripts/lib.sh | xargs -d '\n' grep -nE "^($shared)\(\)")" || return 0
+  say "$found" "is a name of scripts/lib.sh (remedy: another one)"
+  return 1
 }
 
 python_files() {
