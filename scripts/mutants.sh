@@ -16,7 +16,7 @@ TREE="$ROOT/build/mutants/tree"
 TIMEOUT=120  # seconds of a test program; a defect that never ends is noticed as well
 only=()
 keep=false
-share=1/1
+part=1 parts=1
 while (($# > 0)); do
   case "$1" in
     --only)
@@ -28,7 +28,7 @@ while (($# > 0)); do
       if ! [[ ${2:-} =~ ^([1-9][0-9]*)/([1-9][0-9]*)$ ]] || ((BASH_REMATCH[1] > BASH_REMATCH[2])); then
         die 2 "--share needs a part of parts (remedy: --share 1/6)"
       fi
-      share="$2"
+      part=${BASH_REMATCH[1]} parts=${BASH_REMATCH[2]}
       shift
       ;;
     --keep) keep=true ;;
@@ -68,8 +68,7 @@ mutants() {
     END { row_ends() }' "$LIST"
 }
 mapfile -t rows < <(mutants)
-part=${share%/*} parts=${share#*/}
-first=$(((part - 1) * ${#rows[@]} / parts)) end=$((part * ${#rows[@]} / parts))
+begin=$(((part - 1) * ${#rows[@]} / parts)) end=$((part * ${#rows[@]} / parts))
 
 # plant FILE FROM TO: replaces the text, which must occur exactly once.
 plant() {
@@ -96,7 +95,8 @@ killed=0 survived=0 equivalent=0 broken=0
 printf '| defect | place | noticed by | verdict |\n|---|---|---|---|\n'
 # shellcheck disable=SC2016  # a code span, no command
 report() { printf '| %s | `%s` | %s | %s |\n' "$1" "$2" "$3" "$4"; }
-while IFS=$'\037' read -r -u 3 name file from to program filter reason; do
+for row in "${rows[@]:begin:end-begin}"; do
+  IFS=$'\037' read -r name file from to program filter reason <<<"$row"
   if ((${#only[@]} > 0)) && [[ " ${only[*]} " != *" $name "* ]]; then continue; fi
   if [[ -n $reason ]]; then
     equivalent=$((equivalent + 1))
@@ -133,7 +133,7 @@ while IFS=$'\037' read -r -u 3 name file from to program filter reason; do
     report "$name" "$file" "${first:-$program, which did not end well}" "killed"
   fi
   git -C "$TREE" checkout --quiet --force -- "$file"
-done 3< <(printf '%s\n' "${rows[@]:first:end-first}")
+done
 printf '\n%d killed, %d survive, %d equivalent, %d broken\n' "$killed" "$survived" "$equivalent" "$broken"
 ((killed + survived + equivalent + broken > 0)) || die 2 "no such defect (remedy: its names: grep '^  [a-z]' scripts/mutants.txt)"
 ((broken == 0)) || exit 2

@@ -38,7 +38,6 @@ of_each() { echo $(((POSES + $1 - 1) / $1)); }
 study() { build_preset release >&2 && build/release/lmdbench-study "$@" --seed "$SEED"; }
 # Some studies begin by meshes that are fetched.
 all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; }
-generated_parts() { study parts --generator "$1" --poses "$(of_each 20)"; }
 
 # What a part was asked for, beside its name.
 conditions() {
@@ -63,8 +62,7 @@ part() {
   mutants-*) scripts/mutants.sh --share "${1#*-}/6" --keep ;;
   completeness) all_meshes && study completeness --poses 1000 ;;
   hostile) study hostile --poses "$((POSES / 2))" --frames "$((POSES / 2))" ;;
-  parts) generated_parts parts ;;
-  solids | shapes) generated_parts "$1" ;;
+  parts | solids | shapes) study parts --generator "$1" --poses "$(of_each 20)" ;;
   metamorphic) study metamorphic --poses "$(of_each 35)" ;;
   rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 35)" --seed "$SEED" ;;
   fuzz-readers) scripts/fuzz.sh "$(((FUZZ_MINUTES * 2 / 3 + ${#READERS[@]} - 1) / ${#READERS[@]}))" "${READERS[@]}" ;;
@@ -88,7 +86,7 @@ chosen=("$@")
 for name in "${chosen[@]}"; do
   [[ " ${PARTS[*]} " == *" $name "* ]] || die 2 "there is no part '$name' (remedy: scripts/release_check.sh --list)"
 done
-[[ -z "$(git status --porcelain)" ]] ||
+[[ -z "$(git status --porcelain -- . ':!results/release')" ]] || # where verdicts of an earlier call are
   die 2 "the tree differs from its commit (remedy: commit or stash; 'git status' shows what)"
 COMMIT="$(git log -1 --format=%h -- . ':!results' ':!*.md')"
 OUT="$ROOT/results/release/$COMMIT"

@@ -82,9 +82,9 @@ TEST_F(HostilePlugins, LoseNoResultAndMarkTheirFrames) {
     return std::accumulate(frames.begin(), frames.end(), std::int64_t{0});
   };
   for (const auto& [name, mark] : KINDS) {
-    // Its memory has no limit there.
-    if (THREAD_SANITIZER && name == "leak") continue;
-    EXPECT_GT(marks(name, mark), 0) << name;
+    // The thread sanitizer's builds have no limit on memory.
+    const bool must_fail = !THREAD_SANITIZER || name != "leak";
+    EXPECT_GE(marks(name, mark), must_fail ? 1 : 0) << name;
     EXPECT_LE(marks(name, mark), 40) << name;
     EXPECT_EQ(marks("good", mark), 0) << name;
     if (mark != "frames_lost") {
