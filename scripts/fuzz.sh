@@ -6,10 +6,20 @@
 # prints executions, processor time, coverage and finds. The corpus stays in build/fuzz/corpus for
 # the next call; finds (crashes, leaks, inputs of over 30 s) are in build/fuzz/finds. Exit code 1 if
 # there are any. A find, made small with -minimize_crash=1, goes into tests/fuzz/corpus/TARGET.
+# fuzz.sh --list prints the targets.
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
+# Folder of each target's corpus.
+declare -A corpora=([triangle]=geometry/fuzz/corpus [lmd]=methods/fuzz/corpus)
+readers=(off ply obj import tum experiment path manifest sweep journal result)
+for reader in "${readers[@]}"; do corpora[$reader]="fuzz/corpus/$reader"; done
+all=("${readers[@]}" triangle lmd)
+if [[ ${1:-} == --list ]]; then
+  printf '%s\n' "${all[@]}"
+  exit 0
+fi
 [[ ${1:-} =~ ^[0-9]+$ && $1 -gt 0 ]] || die 2 "no number of minutes (remedy: ./scripts/fuzz.sh 10, or ./scripts/fuzz.sh 10 off tum)"
 minutes="$1"
 shift
@@ -17,15 +27,11 @@ if ! command -v clang++ >/dev/null ||
   [[ ! -e "$(clang++ -print-resource-dir)/lib/linux/libclang_rt.fuzzer-$(uname -m).a" ]]; then
   die "$EXIT_ENVIRONMENT" "there is no clang with libFuzzer (remedy: apt-get install clang libclang-rt-14-dev)"
 fi
-# Folder of each target's corpus.
-declare -A corpora=([triangle]=geometry/fuzz/corpus [lmd]=methods/fuzz/corpus)
 readonly EXECUTIONS=10000000 INTERRUPTED=72
-readers=(off ply obj import tum experiment path manifest sweep journal result)
-for reader in "${readers[@]}"; do corpora[$reader]="fuzz/corpus/$reader"; done
 targets=("$@")
-(($# > 0)) || targets=("${readers[@]}" triangle lmd)
+(($# > 0)) || targets=("${all[@]}")
 for target in "${targets[@]}"; do
-  [[ -n ${corpora[$target]:-} ]] || die 2 "there is no target '$target' (remedy: choose of ${readers[*]} triangle lmd)"
+  [[ -n ${corpora[$target]:-} ]] || die 2 "there is no target '$target' (remedy: choose of ${all[*]})"
 done
 
 build="$ROOT/build/fuzz"

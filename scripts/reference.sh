@@ -172,7 +172,7 @@ if [[ ${1:-} == --one ]]; then # a process of its own, so that a command that fa
   exit 0
 fi
 commit="$(git rev-parse --short HEAD)"
-git diff --quiet HEAD || die 2 "the checkout has changes that no commit names (remedy: commit or stash them)"
+git diff --quiet HEAD -- . ':!results/release' || die 2 "the checkout has changes that no commit names (remedy: commit or stash them)"
 OUT="results/reference-runs/$commit"
 mkdir -p "$OUT"
 (($#)) || set -- "${PARTS[@]}"

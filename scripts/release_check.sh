@@ -21,7 +21,7 @@ PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
 FUZZ_MINUTES="${LMDBENCH_FUZZ_MINUTES:-360}"
-READERS=(off ply obj import tum experiment path manifest sweep journal result triangle)
+mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd` is a part of its own
 MACHINE="$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1), $JOBS cores"
 
 # in_fresh_clone COMMAND: for a newcomer, whose folder only has committed files.
