@@ -46,7 +46,7 @@ PYTHON_END
 }
 
 sweep() { "$BUILD/lmdbench" work-precision "experiments/sweeps/$1.json" --out "$OUT/$1.h5" >"$OUT/$1.txt"; }
-run() { "$BUILD/lmdbench" run "experiments/$1.json" --out "$OUT/$2.h5" "${@:3}" </dev/null >&2; }
+run() { run_anew "$BUILD/lmdbench" "experiments/$1.json" "$OUT/$2.h5" "${@:3}" >&2; }
 
 # The files among the arguments that exist, one a line.
 existing() {

@@ -23,7 +23,7 @@ mkdir -p "$out"
 results=()
 for scene in "${scenes[@]}"; do
   [[ -e experiments/extreme/$scene.json ]] || die 2 "no scene '$scene' (remedy: ls experiments/extreme)"
-  "$program" run "experiments/extreme/$scene.json" --set /record/torque=true --out "$out/$scene.h5" </dev/null >/dev/null 2>"$out/$scene.log" || {
+  run_anew "$program" "experiments/extreme/$scene.json" "$out/$scene.h5" --set /record/torque=true >/dev/null 2>"$out/$scene.log" || {
     status=$?
     cat "$out/$scene.log" >&2
     die 1 "scene $scene: exit code $status"

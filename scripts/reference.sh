@@ -22,7 +22,7 @@ PARTS=(claims claim-regions completeness continuous-force deep-contact deform de
 
 study() { "$BUILD/lmdbench-study" "$@"; }
 judge() { "$BUILD/lmdbench-judge" "$@"; }
-run() { "$BUILD/lmdbench" run "experiments/$1.json" --out "$OUT/${1##*/}.h5" "${@:2}" </dev/null >&2; }
+run() { run_anew "$BUILD/lmdbench" "experiments/$1.json" "$OUT/${1##*/}.h5" "${@:2}" >&2; }
 figure() { "$PYTHON" "scripts/figures/$1.py" "${@:2}"; }
 # sweep NAME PAGE: the sweep's tables as PAGE.md and its figure as PAGE.png.
 sweep() {

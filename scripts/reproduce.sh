@@ -42,8 +42,9 @@ PYTHON_END
 # Only the program: tests and benchmarks belong to scripts/test.sh.
 build_program() { cmake --preset release && cmake --build --preset release --parallel "$JOBS" --target lmdbench; }
 
-# With the methods' own LMD sets, which the page shows beside the true ones.
-run_experiment() { "$LMDBENCH" run "experiments/$1.json" --out "results/$1.h5" --set /record/lmds=true </dev/null >&2; }
+# With the methods' own LMD sets, which the page shows beside the true ones. Goes on with a run that
+# was stopped.
+run_experiment() { "$LMDBENCH" run "experiments/$1.json" --out "results/$1.h5" --set /record/lmds=true --resume </dev/null >&2; }
 
 # Figures 1 to 6: meshes, hierarchy, tests, neighbourhoods, visibility, on the soft contact's path.
 paper_figures() {

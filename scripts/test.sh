@@ -82,7 +82,7 @@ experiment_files() {
 end_to_end() {
   local python result="$ROOT/build/release/shapes.h5" folder="$ROOT/build/release/figures"
   python="$(find_python h5py matplotlib numpy)" || return
-  (cd "$ROOT" && build/release/lmdbench run experiments/shapes.json --out "$result" </dev/null) &&
+  (cd "$ROOT" && run_anew build/release/lmdbench experiments/shapes.json "$result") &&
     "$python" "$ROOT/scripts/figures/check_format.py" "$result" &&
     "$python" "$ROOT/scripts/figures/figure7.py" "$result" --out "$folder" &&
     [[ -s $folder/figure7.png ]]
