@@ -78,7 +78,7 @@ build_meshes() {
     { apt_as_root update && "$program" mesh build "$@" </dev/null >&2; }
 }
 
-# run_anew PROGRAM EXPERIMENT RESULT [OPTION]...: begins again where an interrupted call left a part.
+# run_anew PROGRAM EXPERIMENT RESULT [OPTION]...: begins again what was interrupted.
 run_anew() {
   rm -f "$3.part"
   "$1" run "$2" --out "$3" "${@:4}" </dev/null
