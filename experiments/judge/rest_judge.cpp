@@ -156,8 +156,8 @@ bool RestTruth::is_at(const parts::RestPlace& place, const Lmd& lmd) const {
   const bool of_planes = place.dimension == 2 && lmd.feature_moving.kind == FeatureKind::FACE &&
                          lmd.feature_fixed.kind == FeatureKind::FACE;
   const double known = of_planes ? 2.0 * tilt_ : 2.0 * tilt_ + BOTH_CONES * tolerance_ / lmd.distance;
-  return lmd.intersecting || !(known < 1.0) ||
-         (X_DW_.direction(lmd.direction) - place.direction).norm() <= known;
+  if (lmd.intersecting) return scene_.single_precision;  // Others only touch, and have a direction.
+  return !(known < 1.0) || (X_DW_.direction(lmd.direction) - place.direction).norm() <= known;
 }
 
 RestVerdict RestTruth::judge(const LmdSet& lmds) const {
@@ -171,12 +171,9 @@ RestVerdict RestTruth::judge(const LmdSet& lmds) const {
   if (!(least >= nearest_low_ - tolerance_ && least <= nearest_high_ + tolerance_))
     object(RestFault::NEAREST, fmt::format("{:.6g} where the meshes are {:.6g} apart{}", least, nearest_high_,
                                            intersecting_ ? ", intersecting" : ""));
-  // For intersecting triangles the definition demands contacts, but no number of them.
-  const auto touches = [&](double distance) { return intersecting_ && distance <= TOUCHING * tolerance_; };
-  // Single-precision meshes: gaps below the tolerance of both meshes prove nothing.
-  const auto is_open = [&](const parts::RestPlace& place) {
-    return touches(place.gap) || (scene_.single_precision && place.gap <= TOUCHING * tolerance_);
-  };
+  // Single-precision meshes: gaps below the tolerance of both meshes prove nothing, and of triangles
+  // that intersect the definition demands contacts, but no number of them.
+  const auto is_open = [&](double gap) { return scene_.single_precision && gap <= TOUCHING * tolerance_; };
   // If edges or corners touch up to rounding, adjacent faces may have LMDs each (DEFINITION.md).
   const auto is_loose = [&](const parts::RestPlace& place) {
     return place.dimension < 2 && place.gap <= BOTH_CONES * tolerance_;
@@ -191,11 +188,12 @@ RestVerdict RestTruth::judge(const LmdSet& lmds) const {
       if (is_at(scene_.places[i], lmd)) places.push_back(i);
     for (const std::size_t i : places) ++held[i];
     if (places.size() == 1) ++alone[places.front()];
-    if (places.empty() && !touches(lmd.distance)) object(RestFault::UNEXPECTED, text_of(lmd));
+    if (places.empty() && !(intersecting_ && is_open(lmd.distance)))
+      object(RestFault::UNEXPECTED, text_of(lmd));
   }
   for (std::size_t i = 0; i < held.size(); ++i) {
     const parts::RestPlace& place = scene_.places[i];
-    if (is_open(place)) continue;
+    if (is_open(place.gap)) continue;
     if (held[i] == 0 && place.demanded)
       object(RestFault::MISSING, text_of(place, RigidTransform(scene_.X_WD)));
     if (alone[i] > 1 && !is_loose(place))

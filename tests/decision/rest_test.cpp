@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts at rest in each other: contacts of faces at an angle stay apart however near they are.
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/geometry/triangle_distance.h>
 
 #include <gtest/gtest.h>
 #include <support/lmd_text.h>
@@ -105,6 +106,48 @@ TEST(Rest, AHookThatRestsKeepsTheLmdOfItsLeg) {
     SCOPED_TRACE(::testing::Message() << "pose " << k << " gaps " << h << ", " << s);
     expect_lmds(scene, rest, whole, {{h, -Vec3::UnitZ()}, {s, -Vec3::UnitX()}}, 2e-13);
   }
+}
+
+/// All pairs of triangles that intersect.
+std::vector<Intersection> intersections_of(const ShapePair& pair) {
+  const Surface &moving = pair.moving.surface, &fixed = pair.fixed.surface;
+  std::vector<Intersection> result;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(moving.mesh.triangles.size()); ++t)
+    for (std::int32_t s = 0; s < static_cast<std::int32_t>(fixed.mesh.triangles.size()); ++s) {
+      const TrianglePairDistance d =
+          triangle_distance(pair.moving.X_WS.triangle(moving.mesh.triangle(t)), fixed.mesh.triangle(s));
+      if (d.intersecting)
+        result.push_back({moving.feature_of(t, d.feature_a), fixed.feature_of(s, d.feature_b), t, s, 0,
+                          d.minimiser_dimension, d.minimiser_measure, d.point_a});
+    }
+  return result;
+}
+
+TEST(Rest, ABoxThatOverhangsTwoEdgesTouchesWithADirection) {
+  // Its walls cross the other's, each on both sides of the other's plane; that of the contact is between.
+  std::mt19937_64 random(46);
+  std::size_t intersecting = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Pose whole = k % 4 == 0 ? Pose{} : testing::pose_of_seed(k);
+    ShapeScene scene(make_box({1.0, 1.0, 1.0}), testing::placed(make_box({1.0, 1.0, 1.0}), whole), 0.1);
+    const double height = 1.0 + std::array{0.0, 2e-16, -2e-16, 1e-15}[static_cast<std::size_t>(k) / 4 % 4];
+    const Vec3 at(uniform(random, 0.1, 0.8), uniform(random, -0.8, -0.1), height);
+    const ShapePair pair = scene.at(whole * turned_by(0.0, Vec3::UnitZ(), at));
+    ContactSet contacts = scene.contacts(pair);
+    std::vector<Intersection> intersections = intersections_of(pair);
+    intersecting += intersections.empty() ? 0 : 1;
+    LmdSet lmds;
+    join_contacts(pair, 0, contacts, intersections, lmds);
+    EXPECT_TRUE(intersections.empty()) << "pose " << k;
+    ASSERT_EQ(lmds.size(), 1u) << "pose " << k << text(lmds);
+    EXPECT_NEAR((lmds[0].direction + whole.rotation * Vec3::UnitZ()).norm(), 0.0, 1e-12) << "pose " << k;
+    const Vec3 middle = 0.5 * at;
+    EXPECT_NEAR(
+        (RigidTransform(whole.inverse()).point(lmds[0].point_fixed) - Vec3(middle.x(), middle.y(), 0.5))
+            .norm(),
+        0.0, 1e-9);
+  }
+  EXPECT_GT(intersecting, 50u);
 }
 
 }  // namespace

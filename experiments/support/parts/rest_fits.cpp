@@ -57,6 +57,8 @@ constexpr RestFit FITS[] = {
     {"lid on box", "AAA/AAA;AAA/ABA;AAA/AAA"},
     {"frustum in funnel", "BBB/BBB;BAB/BBB;BBB/BBB", "|\\/|", "|\\/|"},
     {"box in a box's pit on a step", "BBBB/BBBB/BBBB;BAAB/BABB/BBBB;B..B/B.BB/BBBB"},
+    {"box over a box's corner", "AA./...;AA./.BB;.../.BB"},
+    {"bar across bar", ".A./...;.A./BBB;.A./..."},
     {"edge past edge", "A./.B"},
     {"corner past corner", "A./..;../.B"},
 };

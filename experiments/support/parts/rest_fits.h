@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-/// Parts at rest in each other with known contacts: concave fits drawn cell by cell, with gaps in
+/// Parts at rest in each other with known contacts: fits drawn cell by cell, with gaps in
 /// all directions from 0 over rounding to visible ones, in turned frames.
 namespace lmdbench::parts {
 

@@ -23,6 +23,11 @@ struct ShapeSide {
 
   const Vec3& vertex_S(std::int32_t v) const { return surface.mesh.vertices[static_cast<std::size_t>(v)]; }
   Vec3 vertex(std::int32_t v) const { return is_moving ? X_WS.point(vertex_S(v)) : vertex_S(v); }
+  /// In the world.
+  Triangle triangle(std::int32_t t) const {
+    const Triangle own = surface.mesh.triangle(t);
+    return is_moving ? X_WS.triangle(own) : own;
+  }
   Vec3 direction(const Vec3& d_S) const { return is_moving ? X_WS.direction(d_S) : d_S; }
   Vec3 direction_to_surface(const Vec3& d_W) const {
     return is_moving ? Vec3(X_WS.rotation.transpose() * d_W) : d_W;

@@ -1,19 +1,31 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/drop_intersecting.h>
+#include <lmdbench/geometry/extent.h>
+#include <lmdbench/geometry/triangle_sides.h>
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace lmdbench {
 
+bool is_above(const ShapeSide& side, std::int32_t triangle, const Plane& plane, double rounding) {
+  return std::ranges::all_of(side.triangle(triangle),
+                             [&](const Vec3& p) { return plane.height(p) >= -2.0 * rounding; });
+}
+
 namespace {
 
 /// Of so few contacts the places are asked before features are collected.
 constexpr std::size_t FEW_CONTACTS = 128;
+
+/// Sine of the angle of two edges times the shorter one over the longest of the triangles: a plane
+/// along shorter or flatter ones is off by more than a quarter of the rounding at the others' ends.
+constexpr double LEAST_EDGE_PRODUCT = 1.0 / 32.0;
 
 /// Bound of the distance of points that two triangles share from their centroid (of a polygon).
 double crossing_reach(const ShapePair& pair, const Intersection& crossing) {
@@ -21,19 +33,41 @@ double crossing_reach(const ShapePair& pair, const Intersection& crossing) {
   return std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
 }
 
-/// Whether one triangle is nowhere more than 2 roundings below the plane of the other.
-bool only_touch(const ShapePair& pair, const Intersection& crossing) {
-  const auto is_above = [&](const ShapeSide& side, std::int32_t triangle, const ShapeSide& other,
-                            std::int32_t base) {
+/// Whether one triangle is above the plane of the other.
+bool is_one_above(const ShapePair& pair, const Intersection& crossing) {
+  const auto is_above_other = [&](const ShapeSide& side, std::int32_t triangle, const ShapeSide& other,
+                                  std::int32_t base) {
     const std::int32_t region = other.shape.region_of(base);
-    if (region < 0) return false;
-    const Plane plane = other.plane(region);
-    return std::ranges::all_of(
-        side.surface.mesh.triangles[static_cast<std::size_t>(triangle)],
-        [&](std::int32_t v) { return plane.height(side.vertex(v)) >= -2.0 * pair.tolerance.rounding; });
+    return region >= 0 && is_above(side, triangle, other.plane(region), pair.tolerance.rounding);
   };
-  return is_above(pair.moving, crossing.triangle_moving, pair.fixed, crossing.triangle_fixed) ||
-         is_above(pair.fixed, crossing.triangle_fixed, pair.moving, crossing.triangle_moving);
+  return is_above_other(pair.moving, crossing.triangle_moving, pair.fixed, crossing.triangle_fixed) ||
+         is_above_other(pair.fixed, crossing.triangle_fixed, pair.moving, crossing.triangle_moving);
+}
+
+/// Whether a plane along an edge of each is between two triangles. Not asked of edges whose product
+/// rounding turns, as contacts tell of these.
+bool edges_are_between(const ShapePair& pair, const Intersection& crossing) {
+  const Triangle a = pair.moving.triangle(crossing.triangle_moving),
+                 b = pair.fixed.triangle(crossing.triangle_fixed);
+  const double longest = std::max(longest_side(a), longest_side(b));
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec3 u = a[(i + 1) % 3] - a[i], v = b[(j + 1) % 3] - b[j], product = u.cross(v);
+      if (product.norm() < LEAST_EDGE_PRODUCT * longest * std::max(u.norm(), v.norm())) continue;
+      const Extent of_a = extent_along(a, product.normalized()), of_b = extent_along(b, product.normalized());
+      if (std::min(of_a.greatest - of_b.least, of_b.greatest - of_a.least) <= 2.0 * pair.tolerance.rounding)
+        return true;
+    }
+  return false;
+}
+
+/// Whether the plane of a contact is between two triangles: edges that cross and corners that touch
+/// are above no plane of the other's.
+bool is_between(const ShapePair& pair, const Contact& contact, const Intersection& crossing) {
+  return is_above(pair.moving, crossing.triangle_moving, {contact.point_moving, -contact.direction},
+                  pair.tolerance.rounding) &&
+         is_above(pair.fixed, crossing.triangle_fixed, {contact.point_fixed, contact.direction},
+                  pair.tolerance.rounding);
 }
 
 }  // namespace
@@ -72,6 +106,13 @@ std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const
     features.erase(std::unique(features.begin(), features.end()), features.end());
   }
   return star;
+}
+
+bool TouchingContacts::hold(const RestingRegions& resting) const {
+  const std::pair features(FeatureId{FeatureKind::FACE, resting.moving},
+                           FeatureId{FeatureKind::FACE, resting.fixed});
+  return std::ranges::any_of(std::ranges::equal_range(entries_, features, {}, &Entry::features),
+                             [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
 }
 
 bool TouchingContacts::for_each_at(const Intersection& crossing,
@@ -120,8 +161,12 @@ std::vector<Intersection> take_touching(const ShapePair& pair, std::int32_t fixe
   TouchingContacts near(pair, places, contacts);
   if (near.empty()) return taken;
   std::erase_if(intersections, [&](const Intersection& crossing) {
-    const bool touches =
-        crossing.fixed_body == fixed_body && only_touch(pair, crossing) && near.are_at(crossing);
+    if (crossing.fixed_body != fixed_body) return false;
+    std::optional<bool> are_apart;
+    const bool touches = !near.for_each_at(crossing, [&](const Contact& contact) {
+      if (!are_apart) are_apart = is_one_above(pair, crossing) || edges_are_between(pair, crossing);
+      return !*are_apart && !is_between(pair, contact, crossing);
+    });
     if (touches) taken.push_back(crossing);
     return touches;
   });

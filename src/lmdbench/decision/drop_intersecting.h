@@ -15,6 +15,24 @@
 
 namespace lmdbench {
 
+/// Two regions, one of them nowhere more than 2 roundings below the other's plane: their triangles
+/// touch at most.
+struct RestingRegions {
+  std::int32_t moving, fixed;
+  Eigen::AlignedBox3d shared_W;  ///< Holds all that they share; world.
+};
+
+/// Regions at rest on each other whose triangles were not compared: there may be a million pairs,
+/// and a contact of the regions stands for all of them.
+struct AtRest {
+  std::span<const RestingRegions> regions;
+  /// Appends what intersects of their triangles.
+  std::function<void(const RestingRegions&, std::vector<Intersection>&)> compare;
+};
+
+/// Whether a triangle is nowhere more than 2 roundings below a plane.
+bool is_above(const ShapeSide& side, std::int32_t triangle, const Plane& plane, double rounding);
+
 /// Contacts no farther than rounding, by the features of triangles that intersect.
 class TouchingContacts {
  public:
@@ -27,6 +45,9 @@ class TouchingContacts {
   bool are_at(const Intersection& crossing) {
     return !for_each_at(crossing, [](const Contact&) { return false; });
   }
+
+  /// Whether a contact of both regions is at all that they share.
+  bool hold(const RestingRegions& resting) const;
 
   bool empty() const { return entries_.empty(); }
 

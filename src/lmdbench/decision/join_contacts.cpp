@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/decision/covered_contacts.h>
-#include <lmdbench/decision/drop_intersecting.h>
 #include <lmdbench/decision/join_contacts.h>
 #include <lmdbench/decision/overlap.h>
 #include <lmdbench/decision/represent_contacts.h>
@@ -89,8 +88,17 @@ class Joining {
         lmds_(lmds),
         signs_(signs) {}
 
-  void run(std::vector<Intersection>& intersections) {
-    const std::vector<Intersection> touching = take_touching(pair_, body_, places_, contacts_, intersections);
+  void run(std::vector<Intersection>& intersections, const AtRest& at_rest) {
+    std::vector<RestingRegions> held;  // By a contact, as take_touching would find.
+    if (!at_rest.regions.empty()) {
+      const TouchingContacts near(pair_, places_, contacts_);
+      for (const RestingRegions& regions : at_rest.regions)
+        if (near.hold(regions))
+          held.push_back(regions);
+        else
+          at_rest.compare(regions, intersections);
+    }
+    std::vector<Intersection> touching = take_touching(pair_, body_, places_, contacts_, intersections);
     drop_intersecting(pair_, body_, places_, intersections, contacts_);
     std::vector<Contact> covered;
     if (signs_ == nullptr) covered = take_covered(pair_, contacts_);
@@ -101,11 +109,13 @@ class Joining {
       join_all();
     }
     report_all();
-    if (touching.empty()) return;
+    if (touching.empty() && held.empty()) return;
     // Triangles that touch where no LMD was reported intersect after all.
     std::vector<Contact> reported;
     for (const std::size_t i : reported_) reported.push_back(contacts_[i]);
     TouchingContacts near(pair_, places_, reported);
+    for (const RestingRegions& regions : held)
+      if (!near.hold(regions)) at_rest.compare(regions, touching);
     std::ranges::copy_if(touching, std::back_inserter(intersections),
                          [&](const Intersection& crossing) { return !near.are_at(crossing); });
   }
@@ -566,15 +576,15 @@ class Joining {
 }  // namespace
 
 void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
-                   std::vector<Intersection>& intersections, LmdSet& lmds) {
-  Joining(pair, fixed_body, contacts, &lmds, nullptr).run(intersections);
+                   std::vector<Intersection>& intersections, LmdSet& lmds, const AtRest& at_rest) {
+  Joining(pair, fixed_body, contacts, &lmds, nullptr).run(intersections, at_rest);
 }
 
 void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
                    std::int32_t fixed_body, ContactSet& contacts, std::vector<Intersection>& intersections,
-                   CriticalSet& critical) {
+                   CriticalSet& critical, const AtRest& at_rest) {
   const Joining::Signs signs{moving, fixed, critical};
-  Joining(pair, fixed_body, contacts, nullptr, &signs).run(intersections);
+  Joining(pair, fixed_body, contacts, nullptr, &signs).run(intersections, at_rest);
 }
 
 }  // namespace lmdbench

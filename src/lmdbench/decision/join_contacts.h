@@ -5,6 +5,7 @@
 #include <lmdbench/decision/contact.h>
 #include <lmdbench/decision/critical_index.h>
 #include <lmdbench/decision/decide.h>
+#include <lmdbench/decision/drop_intersecting.h>
 #include <lmdbench/decision/intersections.h>
 #include <lmdbench/lmd/critical_pair.h>
 #include <lmdbench/lmd/lmd.h>
@@ -28,13 +29,14 @@ namespace lmdbench {
 /// @param contacts  of one fixed body, in any order, repeated or not; left in some order
 /// @param intersections  of all bodies; those that contacts at rest replace are taken out
 /// @param lmds  those within the cutoff are appended, unsorted
+/// @param at_rest  regions whose triangles `intersections` leaves out
 void join_contacts(const ShapePair& pair, std::int32_t fixed_body, ContactSet& contacts,
-                   std::vector<Intersection>& intersections, LmdSet& lmds);
+                   std::vector<Intersection>& intersections, LmdSet& lmds, const AtRest& at_rest = {});
 
 /// The same with critical pairs among the contacts: an LMD's index is the sum over its contacts;
 /// pairs of no LMD are listed by themselves. The minima are those of `join_contacts`.
 void join_critical(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed,
                    std::int32_t fixed_body, ContactSet& contacts, std::vector<Intersection>& intersections,
-                   CriticalSet& critical);
+                   CriticalSet& critical, const AtRest& at_rest = {});
 
 }  // namespace lmdbench

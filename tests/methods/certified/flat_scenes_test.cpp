@@ -158,6 +158,62 @@ TEST(FlatScenes, OverlapsOfManyPieces) {
   }
 }
 
+/// A prism's corners: so many that a comparison of all triangles would show.
+constexpr int CORNERS = 48;
+
+TriangleMesh disc() {
+  return make_sleeve(circle_outline(0.1), nullptr, {.height = 0.05, .around = CORNERS});
+}
+
+TEST(FlatScenes, PartsAtRestHaveADirectionAndIntersectNothing) {
+  const TriangleMesh ring =
+      make_sleeve(circle_outline(0.1), circle_outline(0.06), {.height = 0.05, .around = 24});
+  const TriangleMesh box = make_box({0.1, 0.1, 0.05}, 3);
+  std::mt19937_64 random(12);
+  for (const auto& [moving, fixed] : {std::pair(disc(), disc()), {box, box}, {ring, ring}, {disc(), ring}}) {
+    const Scene scene = make_scene(moving, fixed, 0.02);
+    FlatComparison pair(scene);
+    for (int i = 0; i < 20; ++i) {
+      // Borders that cross, then such as lie on each other.
+      const Pose pose =
+          i < 16 ? turned_on_top(random, 0.05)
+                 : Pose{Vec3(0.02 * (i % 2), 0.02 * (i / 18), 0.05), Eigen::Quaterniond::Identity()};
+      pair.check(pose);
+      LmdSet lmds = lmds_at(*make_method("certified", scene), pose);
+      std::erase_if(lmds, [](const Lmd& lmd) { return lmd.distance > 1e-6; });  // beside, not below
+      EXPECT_FALSE(lmds.empty()) << text(pose);
+      for (const Lmd& lmd : lmds) {
+        EXPECT_FALSE(lmd.intersecting) << text(pose) << text(lmds);
+        EXPECT_NEAR((lmd.direction + Vec3::UnitZ()).norm(), 0.0, 1e-12) << text(pose) << text(lmds);
+      }
+    }
+  }
+}
+
+TEST(FlatScenes, TrianglesOfFacesAtRestAreNotCompared) {
+  const Scene scene = make_scene(disc(), disc(), 0.02);
+  for (const double shift : {0.0, 1e-3, 0.05}) {
+    LmdSet lmds;
+    WorkCounters counters;
+    make_method("certified", scene)
+        ->search({Vec3(shift, 0.0, 0.05), Eigen::Quaterniond::Identity()}, lmds, counters);
+    EXPECT_EQ(lmds.size(), 1u) << text(lmds);
+    // The walls' alone; of the faces all CORNERS * CORNERS pairs touch.
+    EXPECT_LT(counters[Certified::Counter::TRIANGLE_DISTANCES], 20u * CORNERS) << shift;
+  }
+}
+
+TEST(FlatScenes, FacesAtRestOfPartsThatIntersectBesideAreCompared) {
+  // On the floor, and in the wall by more than rounding.
+  const TriangleMesh corner =
+      merged(make_box({0.4, 0.4, 0.1}, 4), translated(make_box({0.1, 0.4, 0.4}, 4), Vec3(-0.25, 0.0, 0.15)));
+  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), corner, 0.02));
+  for (const double depth : {1e-3, 1e-6, 1e-9, 0.0, -1e-9, -1e-3})
+    for (const double y : {0.0, 0.03, 0.17, 0.2})
+      boxes.check({Vec3(-0.15 - depth, y, 0.1), Eigen::Quaterniond::Identity()});
+  EXPECT_GT(boxes.found(), 24u);
+}
+
 TEST(FlatScenes, FloorAndWallAtOneDistanceAreTwoContacts) {
   // Floor and wall meet on the box's edge.
   FlatComparison corner(make_scene(make_l_block(1.0), make_box({0.2, 0.2, 0.2}, 2), 0.02));

@@ -91,6 +91,7 @@ struct SearchScratch {
   TraversalFront::Scratch front;
   ContactSet contacts;
   TouchingPairs touching;
+  std::vector<RestingRegions> resting;
   std::vector<WidePair> touching_pairs;
   std::vector<std::uint32_t> touching_leaves;  ///< Of touching_pairs, in the front.
 };
@@ -323,6 +324,7 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const BorrowedScratch borrowed;
   SearchScratch& scratch = *borrowed;
   scratch.contacts.clear();
+  scratch.resting.clear();
   std::optional<SignedPair> signs;
   if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *fixed_.signs);
   const bool keeps = keep && query.possible && fixed_.policy.keep();
@@ -333,7 +335,8 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
               filter,
               query,
               search_distance,
-              {pair, 0, touch, false, scratch.contacts, intersections_, crossing_pairs_},
+              {pair, 0, touch, false, scratch.contacts, intersections_,
+               lists_intersecting_pairs_ ? &crossing_pairs_ : nullptr, scratch.resting},
               counters,
               scratch,
               signs ? &*signs : nullptr};
@@ -342,15 +345,22 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   else
     enumerate_from_scratch(frame);
   add_traversal<Counter>(counters, frame.work);
+  const auto compare = [&](const RestingRegions& regions, std::vector<Intersection>& intersections) {
+    TouchingPairs::Frame compared{pair,          0,       touch,          false, scratch.contacts,
+                                  intersections, nullptr, scratch.resting};
+    scratch.touching.compare(compared, regions);
+    frame.touching.triangle_pairs += compared.triangle_pairs;
+    frame.touching.triangle_distances += compared.triangle_distances;
+  };
+  join(pair, scratch.contacts, AtRest{scratch.resting, std::ref(compare)});  // by reference: no allocation
   counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
   counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;
-  join(pair, scratch.contacts);
 }
 
 void Certified::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   lmds.clear();
-  find(X_WM, counters, [&](const ShapePair& pair, ContactSet& contacts) {
-    join_contacts(pair, 0, contacts, intersections_, lmds);
+  find(X_WM, counters, [&](const ShapePair& pair, ContactSet& contacts, const AtRest& at_rest) {
+    join_contacts(pair, 0, contacts, intersections_, lmds, at_rest);
   });
   append_contacts(scene_, intersections_, lmds);
   std::sort(lmds.begin(), lmds.end(), lmd_less);
@@ -364,8 +374,8 @@ void Certified::find_critical(const Pose& X_WM, CriticalSet& critical, WorkCount
     return;
   }
   critical.clear();
-  find(X_WM, counters, [&](const ShapePair& pair, ContactSet& contacts) {
-    join_critical(pair, *signs_moving_, *fixed_.signs, 0, contacts, intersections_, critical);
+  find(X_WM, counters, [&](const ShapePair& pair, ContactSet& contacts, const AtRest& at_rest) {
+    join_critical(pair, *signs_moving_, *fixed_.signs, 0, contacts, intersections_, critical, at_rest);
   });
   finish_critical(scene_, intersections_, critical);
 }

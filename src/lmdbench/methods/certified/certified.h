@@ -72,7 +72,9 @@ class Certified : public Method {
   /// build/signed_hierarchy.h). It keeps tests of its own from frame to frame.
   void find_critical(const Pose& X_WM, CriticalSet& critical, WorkCounters& counters) override;
 
-  /// Calls visit(pair) for every pair of triangles that intersect at the last pose; some twice.
+  /// From now on searches list every pair of triangles that intersect.
+  void list_intersecting_pairs() { lists_intersecting_pairs_ = true; }
+  /// Calls visit(pair) for each at the last pose; some twice.
   template <class Visit>
   void for_each_intersecting_pair(Visit&& visit) const {
     for (const CrossingPair& pair : crossing_pairs_) visit(pair);
@@ -95,7 +97,7 @@ class Certified : public Method {
 
   /// @param with_critical  looks for critical pairs
   Certified(Scene of_pair, const CertifiedOptions& options, WideKernel kernel, bool with_critical);
-  /// Steps 1 and 2; calls join(the two at the pose, their contacts).
+  /// Steps 1 and 2; calls join(the two at the pose, their contacts, regions at rest).
   template <class Join>
   void find(const Pose& X_WM, WorkCounters& counters, Join&& join);
 
@@ -114,6 +116,7 @@ class Certified : public Method {
   CertifiedOptions options_;
   FixedBody fixed_;
   bool coherent_;
+  bool lists_intersecting_pairs_ = false;
   VectorTarget target_;
   WideKernel kernel_;
   MotionForecast motion_;

@@ -4,7 +4,9 @@
 
 namespace lmdbench {
 
-IntersectionTracer::IntersectionTracer(const Scene& of_pair) : frame_(of_pair), certified_(frame_.scene()) {}
+IntersectionTracer::IntersectionTracer(const Scene& of_pair) : frame_(of_pair), certified_(frame_.scene()) {
+  certified_.list_intersecting_pairs();
+}
 
 const std::vector<IntersectionPolyline>& IntersectionTracer::trace(const Pose& X_WM) {
   const Pose near = frame_.to_near(X_WM);

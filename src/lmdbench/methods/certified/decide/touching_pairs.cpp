@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/convex_polygon.h>
 #include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/point_triangle.h>
+#include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/geometry/triangle_sides.h>
 #include <lmdbench/methods/certified/decide/touch.h>
@@ -35,11 +37,6 @@ using FeaturePair = std::pair<FeatureId, FeatureId>;
 
 Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
   return side.direction(side.surface.face_normals[static_cast<std::size_t>(face)]);
-}
-
-Triangle triangle_of(const ShapeSide& side, std::int32_t face) {
-  const Triangle t = side.surface.mesh.triangle(face);
-  return side.is_moving ? side.X_WS.triangle(t) : t;
 }
 
 Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
@@ -100,13 +97,15 @@ ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_mo
   return widest;
 }
 
+void ask(const ShapeSide& of_corner, const FeatureId& corner, const FeatureId& feature,
+         std::vector<FeaturePair>& asked) {
+  asked.push_back(of_corner.is_moving ? FeaturePair(corner, feature) : FeaturePair(feature, corner));
+}
+
 /// Notes corners of a triangle within touch of another, each with the other's corners and chains.
 void note_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners, std::int32_t t_corners,
                   const ShapeSide& other, std::int32_t t_other, std::vector<FeaturePair>& asked) {
-  const Triangle triangle = triangle_of(other, t_other);
-  const auto ask = [&](const FeatureId& corner, const FeatureId& feature) {
-    asked.push_back(of_corners.is_moving ? FeaturePair(corner, feature) : FeaturePair(feature, corner));
-  };
+  const Triangle triangle = other.triangle(t_other);
   for (const std::int32_t v : of_corners.surface.mesh.triangles[static_cast<std::size_t>(t_corners)]) {
     if (!of_corners.shape.is_corner(v)) continue;
     const double squared = point_triangle_distance(of_corners.vertex(v), triangle).squared_distance;
@@ -115,26 +114,35 @@ void note_corners(const TouchingPairs::Frame& frame, const ShapeSide& of_corners
     // Pairs of corners are asked for once, from the moving mesh.
     if (of_corners.is_moving)
       for (const std::int32_t w : other.surface.mesh.triangles[static_cast<std::size_t>(t_other)])
-        ask(corner, {FeatureKind::VERTEX, w});
+        ask(of_corners, corner, {FeatureKind::VERTEX, w}, asked);
     for (const std::int32_t e : other.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_other)])
       if (const std::int32_t chain = other.shape.chain_of(e); chain >= 0)
-        ask(corner, {FeatureKind::EDGE, other.shape.lead_of_chain(chain)});
+        ask(of_corners, corner, {FeatureKind::EDGE, other.shape.lead_of_chain(chain)}, asked);
   }
 }
 
-/// The same for parallel chains: the direction of their contacts is one between points, too.
+/// The same for chains if they are parallel: the direction of their contacts is one between points,
+/// too.
+void note_if_parallel(const TouchingPairs::Frame& frame, std::int32_t of_moving, std::int32_t of_fixed,
+                      std::vector<FeaturePair>& asked) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const Vec3 u = from_end_to_end(moving, of_moving), v = from_end_to_end(fixed, of_fixed);
+  if (u.cross(v).norm() > 2.0 * frame.pair.tolerance.largest_tilt * u.norm() * v.norm()) return;
+  asked.emplace_back(FeatureId{FeatureKind::EDGE, moving.shape.lead_of_chain(of_moving)},
+                     FeatureId{FeatureKind::EDGE, fixed.shape.lead_of_chain(of_fixed)});
+}
+
 void note_parallel_chains(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed,
                           std::vector<FeaturePair>& asked) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   for (const std::int32_t e : moving.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_moving)])
-    for (const std::int32_t f : fixed.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)]) {
-      const std::int32_t c = moving.shape.chain_of(e), d = fixed.shape.chain_of(f);
-      if (c < 0 || d < 0) continue;
-      const Vec3 u = from_end_to_end(moving, c), v = from_end_to_end(fixed, d);
-      if (u.cross(v).norm() > 2.0 * frame.pair.tolerance.largest_tilt * u.norm() * v.norm()) continue;
-      asked.emplace_back(FeatureId{FeatureKind::EDGE, moving.shape.lead_of_chain(c)},
-                         FeatureId{FeatureKind::EDGE, fixed.shape.lead_of_chain(d)});
-    }
+    for (const std::int32_t f : fixed.surface.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)])
+      if (const std::int32_t c = moving.shape.chain_of(e), d = fixed.shape.chain_of(f); c >= 0 && d >= 0)
+        note_if_parallel(frame, c, d, asked);
+}
+
+void note_crossing(const TouchingPairs::Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+  if (frame.crossing_pairs != nullptr) frame.crossing_pairs->push_back({frame.body, t_moving, t_fixed});
 }
 
 }  // namespace
@@ -171,8 +179,7 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
       certificates_[k] = decide_regions(frame, pairs[k]);
       continue;
     }
-    const Triangle t_moving = triangle_of(moving, on_moving.index),
-                   t_fixed = triangle_of(fixed, on_fixed.index);
+    const Triangle t_moving = moving.triangle(on_moving.index), t_fixed = fixed.triangle(on_fixed.index);
     if (!frame.keeps && gap_along_normals(t_moving, face_normal(moving, on_moving.index), t_fixed,
                                           face_normal(fixed, on_fixed.index), margin)
                                 .gap > margin)
@@ -210,7 +217,7 @@ void TouchingPairs::decide_batch(Frame& frame, Batch& batch, Batch& not_crossing
                                      1,
                                      length,
                                      crossings[k].middle});
-      frame.crossing_pairs.push_back({frame.body, entry.moving, entry.fixed});
+      note_crossing(frame, entry.moving, entry.fixed);
       continue;
     }
     not_crossing.push(batch.moving[k], batch.fixed[k], entry);
@@ -235,11 +242,10 @@ void TouchingPairs::decide_not_crossing(Frame& frame, Batch& batch) {
 /// Decides two triangles exactly.
 Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
-  const TrianglePairDistance nearest =
-      triangle_distance(triangle_of(moving, t_moving), triangle_of(fixed, t_fixed));
+  const TrianglePairDistance nearest = triangle_distance(moving.triangle(t_moving), fixed.triangle(t_fixed));
   ++frame.triangle_distances;
   if (nearest.intersecting) {
-    frame.crossing_pairs.push_back({frame.body, t_moving, t_fixed});
+    note_crossing(frame, t_moving, t_fixed);
     frame.intersections.push_back({moving.surface.feature_of(t_moving, nearest.feature_a),
                                    fixed.surface.feature_of(t_fixed, nearest.feature_b), t_moving, t_fixed,
                                    frame.body, nearest.minimiser_dimension, nearest.minimiser_measure,
@@ -269,10 +275,23 @@ struct TouchingPairs::Half {
         shape(shape_of(side, face)),
         corners(room) {}
 
+  /// Whether all of its corners and chains are on its border, each chain once.
+  bool has_plain_border() const {
+    return shape != nullptr && !shape->has_features_inside && shape->sides.size() == chains().size();
+  }
+  std::span<const std::int32_t> chains() const { return side.shape.regions.straight_edges_of_region[region]; }
+  /// Calls visit(chain) for all chains of the border whose boxes are near a segment of the world,
+  /// and some others. @pre has_plain_border()
+  template <class Visit>
+  void for_each_chain_near(const Vec3& from, const Vec3& to, double within, Visit&& visit) const {
+    const auto flat = [&](const Vec3& p) { return shape->frame.flat(side.point_to_surface(p)); };
+    shape->side_grid.for_each_near(flat(from), flat(to), within,
+                                   [&](std::int32_t k) { visit(chains()[static_cast<std::size_t>(k)]); });
+  }
   std::size_t corner_count() const { return shape != nullptr ? shape->corners.size() : 3; }
   void collect_corners() const {
     if (shape == nullptr) {
-      const Triangle t = triangle_of(side, lead);
+      const Triangle t = side.triangle(lead);
       corners.assign(t.begin(), t.end());
       return;
     }
@@ -284,7 +303,7 @@ struct TouchingPairs::Half {
     if (region < 0) return {};
     const Plane plane = side.plane(region);
     return other.shape != nullptr ? gap_to(plane, other.side, *other.shape)
-                                  : gap_to(plane, triangle_of(other.side, other.lead));
+                                  : gap_to(plane, other.side.triangle(other.lead));
   }
   /// The faces that are near to points of the world.
   void find_faces_near(std::span<const Vec3> points, double within, std::vector<std::int32_t>& faces) const {
@@ -299,26 +318,35 @@ struct TouchingPairs::Half {
   }
 };
 
-/// Decides a pair with a region of several faces: by gaps between outlines, then the triangles of
-/// the one with more corners near the other, against those of the other near each of them.
+/// Decides a pair with a region of several faces: by gaps between outlines, then by what is near.
 Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   const Half m(moving, pair.a.feature_id(), points_moving_), f(fixed, pair.b.feature_id(), points_fixed_);
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   if (const ClearGap gap = f.gap_to_other(m); gap.gap > margin) return {gap.gap - margin, gap.axis};
   if (const ClearGap gap = m.gap_to_other(f); gap.gap > margin) return {gap.gap - margin, -gap.axis};
-  const bool moving_is_large = m.corner_count() > f.corner_count();
-  const Half &large = moving_is_large ? m : f, &small = moving_is_large ? f : m;
-  small.collect_corners();
   if (m.corner_count() * f.corner_count() <= MOST_CORNER_PAIRS && m.region >= 0 && f.region >= 0) {
-    large.collect_corners();
+    m.collect_corners();
+    f.collect_corners();
     if (const ClearGap gap = gap_along_side_products(moving, m.region, m.corners, fixed, f.region, f.corners);
         gap.gap > margin)
       return {gap.gap - margin, gap.axis};
   }
+  if (!decide_resting(frame, m, f)) decide_triangles_of(frame, m, f);
+  return {};
+}
+
+/// Decides the triangles of the one with more corners near the other, against those of the other
+/// near each of them.
+void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half& f) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  const bool moving_is_large = m.corner_count() > f.corner_count();
+  const Half &large = moving_is_large ? m : f, &small = moving_is_large ? f : m;
+  small.collect_corners();
   large.find_faces_near(small.corners, margin, faces_of_large_);
   for (const std::int32_t t_large : faces_of_large_) {
-    const Triangle t = triangle_of(large.side, t_large);
+    const Triangle t = large.side.triangle(t_large);
     // Of a gear's thousands of triangles few reach the plane of a tooth.
     if (small.region >= 0 && gap_to(small.side.plane(small.region), t).gap > margin) continue;
     small.find_faces_near(t, margin, faces_of_small_);
@@ -326,14 +354,72 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
       ++frame.triangle_pairs;
       const std::int32_t t_moving = moving_is_large ? t_large : t_small;
       const std::int32_t t_fixed = moving_is_large ? t_small : t_large;
-      if (clear_gap(triangle_of(moving, t_moving), face_normal(moving, t_moving), triangle_of(fixed, t_fixed),
+      if (clear_gap(moving.triangle(t_moving), face_normal(moving, t_moving), fixed.triangle(t_fixed),
                     face_normal(fixed, t_fixed), margin)
               .gap > 0.0)
         continue;
       decide_triangles(frame, t_moving, t_fixed);
     }
   }
-  return {};
+}
+
+/// Of regions at rest on each other notes corners and chains beside each other. False for others,
+/// and where all crossings are listed.
+bool TouchingPairs::decide_resting(Frame& frame, const Half& m, const Half& f) {
+  if (frame.crossing_pairs != nullptr || !m.has_plain_border() || !f.has_plain_border()) return false;
+  const ContactTolerance& tolerance = frame.pair.tolerance;
+  const Plane of_moving = m.side.plane(m.region), of_fixed = f.side.plane(f.region);
+  if (of_moving.normal.dot(of_fixed.normal) > 0.0 ||
+      of_moving.normal.cross(of_fixed.normal).norm() > 2.0 * tolerance.largest_tilt)
+    return false;
+  const auto is_all_above = [&](const Half& half, const Plane& plane) {
+    return std::ranges::all_of(half.side.shape.regions.region_triangles[half.region], [&](std::int32_t t) {
+      return is_above(half.side, t, plane, tolerance.rounding);
+    });
+  };
+  if (!is_all_above(m, of_fixed) && !is_all_above(f, of_moving)) return false;
+  const PlanarFrame& frame_S = f.shape->frame;  // of the fixed mesh, which is the world
+  std::vector<Vec2> outline;
+  for (const std::int32_t v : m.shape->corners) outline.push_back(frame_S.flat(m.side.vertex(v)));
+  RestingRegions resting{m.region, f.region, {}};
+  for (const Vec2& corner :
+       ConvexPolygon(convex_hull(std::move(outline))).cut_by(ConvexPolygon(f.shape->hull)).corners)
+    resting.shared_W.extend(Vec3(frame_S.lifted(corner)));
+  if (resting.shared_W.isEmpty()) return false;  // They touch along a border at most.
+  frame.resting.push_back(resting);
+
+  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  const auto note_corners_beside_chains = [&](const Half& of_corners, const Half& of_chains) {
+    for (const std::int32_t v : of_corners.shape->corners) {
+      const Vec3 p = of_corners.side.vertex(v);
+      const FeatureId corner{FeatureKind::VERTEX, v};
+      of_chains.for_each_chain_near(p, p, margin, [&](std::int32_t chain) {
+        const auto& ends = of_chains.side.shape.ends_of_chain(chain);
+        const Segment segment{of_chains.side.vertex(ends[0]), of_chains.side.vertex(ends[1])};
+        if (point_segment_distance(p, segment).squared_distance > margin * margin) return;
+        ask(of_corners.side, corner, {FeatureKind::EDGE, of_chains.side.shape.lead_of_chain(chain)}, asked_);
+        if (of_corners.side.is_moving)
+          for (const std::int32_t w : ends) ask(of_corners.side, corner, {FeatureKind::VERTEX, w}, asked_);
+      });
+    }
+  };
+  note_corners_beside_chains(m, f);
+  note_corners_beside_chains(f, m);
+  for (const std::int32_t chain : m.chains()) {
+    const auto& ends = m.side.shape.ends_of_chain(chain);
+    f.for_each_chain_near(m.side.vertex(ends[0]), m.side.vertex(ends[1]), margin,
+                          [&](std::int32_t other) { note_if_parallel(frame, chain, other, asked_); });
+  }
+  return true;
+}
+
+void TouchingPairs::compare(Frame& frame, const RestingRegions& regions) {
+  const auto half = [](const ShapeSide& side, std::int32_t region, std::vector<Vec3>& room) {
+    return Half(side, {FeatureKind::FACE, side.shape.regions.region_triangles[region].front()}, room);
+  };
+  decide_triangles_of(frame, half(frame.pair.moving, regions.moving, points_moving_),
+                      half(frame.pair.fixed, regions.fixed, points_fixed_));
+  asked_.clear();  // decide_resting asked.
 }
 
 }  // namespace lmdbench

@@ -21,6 +21,8 @@ namespace lmdbench {
 /// 2. Of triangles within `touch` the definition is asked for corners with corners and chains, and
 ///    for parallel chains (PROOF.md, lemma 10): their direction is rounding, and no cone holds it.
 ///    Contacts with a plane's or product's direction the hierarchies find at every distance.
+/// 3. Triangles of regions at rest on each other are not compared (lemma 10): a contact of the
+///    regions stands for them, and corners and chains are found along the borders.
 class TouchingPairs {
  public:
   /// What a frame fixes, and where results go.
@@ -31,12 +33,15 @@ class TouchingPairs {
     bool keeps;    ///< Certificates are used: the widest gap is needed, not any.
     ContactSet& contacts;
     std::vector<Intersection>& intersections;
-    std::vector<CrossingPair>& crossing_pairs;                 ///< Of all triangles that intersect.
+    std::vector<CrossingPair>* crossing_pairs;  ///< Of all triangles that intersect; null: not asked.
+    std::vector<RestingRegions>& resting;       ///< Whose triangles were not compared.
     std::uint64_t triangle_pairs = 0, triangle_distances = 0;  ///< Counters.
   };
 
   /// @return each pair's certificate, without lever arms; valid until the next call
   std::span<const Certificate> decide(Frame& frame, std::span<const WidePair> pairs);
+  /// Appends what intersects of the triangles of two regions.
+  void compare(Frame& frame, const RestingRegions& regions);
 
  private:
   struct Batch;
@@ -46,6 +51,8 @@ class TouchingPairs {
   void decide_not_crossing(Frame& frame, Batch& batch);
   Certificate decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
   Certificate decide_regions(Frame& frame, const WidePair& pair);
+  void decide_triangles_of(Frame& frame, const Half& moving, const Half& fixed);
+  bool decide_resting(Frame& frame, const Half& moving, const Half& fixed);
 
   std::vector<Certificate> certificates_;
   std::vector<std::pair<FeatureId, FeatureId>> asked_;  ///< Corners and chains within touch.
