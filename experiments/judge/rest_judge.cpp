@@ -171,8 +171,8 @@ RestVerdict RestTruth::judge(const LmdSet& lmds) const {
   if (!(least >= nearest_low_ - tolerance_ && least <= nearest_high_ + tolerance_))
     object(RestFault::NEAREST, fmt::format("{:.6g} where the meshes are {:.6g} apart{}", least, nearest_high_,
                                            intersecting_ ? ", intersecting" : ""));
-  // Single-precision meshes: gaps below the tolerance of both meshes prove nothing, and of triangles
-  // that intersect the definition demands contacts, but no number of them.
+  // Single-precision meshes: gaps below the tolerance of both prove nothing, and of triangles that
+  // intersect the definition demands contacts, but no number of them.
   const auto is_open = [&](double gap) { return scene_.single_precision && gap <= TOUCHING * tolerance_; };
   // If edges or corners touch up to rounding, adjacent faces may have LMDs each (DEFINITION.md).
   const auto is_loose = [&](const parts::RestPlace& place) {

@@ -124,7 +124,7 @@ std::vector<Intersection> intersections_of(const ShapePair& pair) {
 }
 
 TEST(Rest, ABoxThatOverhangsTwoEdgesTouchesWithADirection) {
-  // Its walls cross the other's, each on both sides of the other's plane; that of the contact is between.
+  // Its walls cross the other's, each on both sides of the other's plane; the contact's is between.
   std::mt19937_64 random(46);
   std::size_t intersecting = 0;
   for (int k = 0; k < 200; ++k) {

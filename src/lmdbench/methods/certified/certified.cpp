@@ -352,7 +352,8 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
     frame.touching.triangle_pairs += compared.triangle_pairs;
     frame.touching.triangle_distances += compared.triangle_distances;
   };
-  join(pair, scratch.contacts, AtRest{scratch.resting, std::ref(compare)});  // by reference: no allocation
+  // By reference: std::function allocates for what is larger.
+  join(pair, scratch.contacts, AtRest{scratch.resting, std::ref(compare)});
   counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
   counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;
 }

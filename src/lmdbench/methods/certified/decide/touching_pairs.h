@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/decision/decide.h>
+#include <lmdbench/decision/drop_intersecting.h>
 #include <lmdbench/decision/intersection_polylines.h>
 #include <lmdbench/decision/intersections.h>
 #include <lmdbench/methods/certified/decide/certificate.h>
@@ -33,7 +34,7 @@ class TouchingPairs {
     bool keeps;    ///< Certificates are used: the widest gap is needed, not any.
     ContactSet& contacts;
     std::vector<Intersection>& intersections;
-    std::vector<CrossingPair>* crossing_pairs;  ///< Of all triangles that intersect; null: not asked.
+    std::vector<CrossingPair>* crossing_pairs;  ///< Of all that intersect; null: not asked.
     std::vector<RestingRegions>& resting;       ///< Whose triangles were not compared.
     std::uint64_t triangle_pairs = 0, triangle_distances = 0;  ///< Counters.
   };
