@@ -108,11 +108,17 @@ std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const
   return star;
 }
 
+std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(const FeatureId& moving,
+                                                                      const FeatureId& fixed) const {
+  const std::pair features(moving, fixed);
+  return {std::ranges::lower_bound(entries_, features, {}, &Entry::features),
+          std::ranges::upper_bound(entries_, features, {}, &Entry::features)};
+}
+
 bool TouchingContacts::hold(const RestingRegions& resting) const {
-  const std::pair features(FeatureId{FeatureKind::FACE, resting.moving},
-                           FeatureId{FeatureKind::FACE, resting.fixed});
-  return std::ranges::any_of(std::ranges::equal_range(entries_, features, {}, &Entry::features),
-                             [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
+  return std::ranges::any_of(
+      entries_of({FeatureKind::FACE, resting.moving}, {FeatureKind::FACE, resting.fixed}),
+      [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
 }
 
 bool TouchingContacts::for_each_at(const Intersection& crossing,
@@ -148,7 +154,7 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
     for (const FeatureId& f : *features_moving)
       for (const Features* features_fixed : of_fixed)
         for (const FeatureId& g : *features_fixed)
-          for (const Entry& entry : std::ranges::equal_range(entries_, std::pair(f, g), {}, &Entry::features))
+          for (const Entry& entry : entries_of(f, g))
             if (!is_far(entry) && !visit(*entry.contact)) return false;
   return true;
 }

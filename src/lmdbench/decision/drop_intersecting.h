@@ -57,6 +57,7 @@ class TouchingContacts {
     Eigen::AlignedBox3d box_W;
     const Contact* contact;
   };
+  std::span<const Entry> entries_of(const FeatureId& moving, const FeatureId& fixed) const;
   using Features = std::vector<FeatureId>;
   /// The features that have a corner at a vertex, faces first; filled as vertices are asked for.
   using FeaturesAt = std::unordered_map<std::int32_t, Features>;

@@ -34,9 +34,10 @@ class TouchingPairs {
     bool keeps;    ///< Certificates are used: the widest gap is needed, not any.
     ContactSet& contacts;
     std::vector<Intersection>& intersections;
-    std::vector<CrossingPair>* crossing_pairs;                 ///< Of all that intersect; null: not asked.
-    std::vector<RestingRegions>& resting;                      ///< Whose triangles were not compared.
-    std::uint64_t triangle_pairs = 0, triangle_distances = 0;  ///< Counters.
+    std::vector<CrossingPair>* crossing_pairs;  ///< Of all that intersect; null: not asked.
+    std::vector<RestingRegions>& resting;       ///< Whose triangles were not compared.
+    /// Counters.
+    std::uint64_t triangle_pairs = 0, triangle_distances = 0;
   };
 
   /// @return each pair's certificate, without lever arms; valid until the next call
