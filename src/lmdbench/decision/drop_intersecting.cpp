@@ -111,8 +111,8 @@ std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const
 std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(const FeatureId& moving,
                                                                       const FeatureId& fixed) const {
   const std::pair features(moving, fixed);
-  return {std::ranges::lower_bound(entries_, features, {}, &Entry::features),
-          std::ranges::upper_bound(entries_, features, {}, &Entry::features)};
+  const auto first = std::ranges::lower_bound(entries_, features, {}, &Entry::features);
+  return {first, std::find_if(first, entries_.end(), [&](const Entry& e) { return e.features != features; })};
 }
 
 bool TouchingContacts::hold(const RestingRegions& resting) const {

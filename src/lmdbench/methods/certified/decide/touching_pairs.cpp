@@ -26,8 +26,9 @@ constexpr std::size_t MOST_CORNER_PAIRS = 64;
 /// So many corners of a hull are tried first: they often lie on both sides of a plane.
 constexpr std::size_t FEW_CORNERS = 4;
 
-/// Two triangles are clearly apart where a gap is wider than this many touches.
-constexpr double MARGIN_IN_TOUCHES = 2.0;
+/// Two triangles are clearly apart where a gap is wider than this many touches; they clearly do not
+/// intersect where it is wider than this many roundings.
+constexpr double MARGIN_IN_TOUCHES = 2.0, CLEAR_ROUNDINGS = 4.0;
 
 /// The exact kernel measures crossings along less than this part of the triangles' longest side:
 /// pieces weigh in a contact's middle by their lengths, so where all are short errors would count.
@@ -239,8 +240,8 @@ void TouchingPairs::decide_not_crossing(Frame& frame, Batch& batch) {
   batch.count = 0;
 }
 
-/// Decides two triangles exactly.
-Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+/// Compares two triangles exactly, and lists what they share.
+TrianglePairDistance TouchingPairs::intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
   const TrianglePairDistance nearest = triangle_distance(moving.triangle(t_moving), fixed.triangle(t_fixed));
   ++frame.triangle_distances;
@@ -251,6 +252,13 @@ Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving,
                                    frame.body, nearest.minimiser_dimension, nearest.minimiser_measure,
                                    nearest.point_a});
   }
+  return nearest;
+}
+
+/// Decides two triangles exactly.
+Certificate TouchingPairs::decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
+  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
+  const TrianglePairDistance nearest = intersect(frame, t_moving, t_fixed);
   const double distance = std::sqrt(nearest.squared_distance);
   if (distance <= frame.touch) {
     note_corners(frame, moving, t_moving, fixed, t_fixed, asked_);
@@ -332,15 +340,18 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
         gap.gap > margin)
       return {gap.gap - margin, gap.axis};
   }
-  if (!decide_resting(frame, m, f)) decide_triangles_of(frame, m, f);
+  const bool is_noted = note_along_borders(frame, m, f);
+  if (!is_noted || !are_at_rest(frame, m, f)) decide_triangles_of(frame, m, f, is_noted);
   return {};
 }
 
 /// Decides the triangles of the one with more corners near the other, against those of the other
 /// near each of them.
-void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half& f) {
+/// @param is_noted  only what intersects is wanted
+void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half& f, bool is_noted) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
-  const double margin = MARGIN_IN_TOUCHES * frame.touch;
+  const double margin =
+      is_noted ? CLEAR_ROUNDINGS * frame.pair.tolerance.rounding : MARGIN_IN_TOUCHES * frame.touch;
   const bool moving_is_large = m.corner_count() > f.corner_count();
   const Half &large = moving_is_large ? m : f, &small = moving_is_large ? f : m;
   small.collect_corners();
@@ -358,36 +369,18 @@ void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half&
                     face_normal(fixed, t_fixed), margin)
               .gap > 0.0)
         continue;
-      decide_triangles(frame, t_moving, t_fixed);
+      if (is_noted)
+        intersect(frame, t_moving, t_fixed);
+      else
+        decide_triangles(frame, t_moving, t_fixed);
     }
   }
 }
 
-/// Of regions at rest on each other notes corners and chains beside each other. False for others,
-/// and where all crossings are listed.
-bool TouchingPairs::decide_resting(Frame& frame, const Half& m, const Half& f) {
-  if (frame.crossing_pairs != nullptr || !m.has_plain_border() || !f.has_plain_border()) return false;
-  const ContactTolerance& tolerance = frame.pair.tolerance;
-  const Plane of_moving = m.side.plane(m.region), of_fixed = f.side.plane(f.region);
-  if (of_moving.normal.dot(of_fixed.normal) > 0.0 ||
-      of_moving.normal.cross(of_fixed.normal).norm() > 2.0 * tolerance.largest_tilt)
-    return false;
-  const auto is_all_above = [&](const Half& half, const Plane& plane) {
-    return std::ranges::all_of(half.side.shape.regions.region_triangles[half.region], [&](std::int32_t t) {
-      return is_above(half.side, t, plane, tolerance.rounding);
-    });
-  };
-  if (!is_all_above(m, of_fixed) && !is_all_above(f, of_moving)) return false;
-  const PlanarFrame& frame_S = f.shape->frame;  // of the fixed mesh, which is the world
-  std::vector<Vec2> outline;
-  for (const std::int32_t v : m.shape->corners) outline.push_back(frame_S.flat(m.side.vertex(v)));
-  RestingRegions resting{m.region, f.region, {}};
-  for (const Vec2& corner :
-       ConvexPolygon(convex_hull(std::move(outline))).cut_by(ConvexPolygon(f.shape->hull)).corners)
-    resting.shared_W.extend(Vec3(frame_S.lifted(corner)));
-  if (resting.shared_W.isEmpty()) return false;  // They touch along a border at most.
-  frame.resting.push_back(resting);
-
+/// Notes corners and chains within touch of each other where both regions have all of theirs on
+/// their borders; else false.
+bool TouchingPairs::note_along_borders(const Frame& frame, const Half& m, const Half& f) {
+  if (!m.has_plain_border() || !f.has_plain_border()) return false;
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   const auto note_corners_beside_chains = [&](const Half& of_corners, const Half& of_chains) {
     for (const std::int32_t v : of_corners.shape->corners) {
@@ -413,13 +406,37 @@ bool TouchingPairs::decide_resting(Frame& frame, const Half& m, const Half& f) {
   return true;
 }
 
+/// Whether the triangles of two regions need not be compared, as they rest on each other.
+bool TouchingPairs::are_at_rest(Frame& frame, const Half& m, const Half& f) {
+  if (frame.crossing_pairs != nullptr) return false;
+  const ContactTolerance& tolerance = frame.pair.tolerance;
+  const Plane of_moving = m.side.plane(m.region), of_fixed = f.side.plane(f.region);
+  if (of_moving.normal.dot(of_fixed.normal) > 0.0 ||
+      of_moving.normal.cross(of_fixed.normal).norm() > 2.0 * tolerance.largest_tilt)
+    return false;
+  const auto is_all_above = [&](const Half& half, const Plane& plane) {
+    return std::ranges::all_of(half.side.shape.regions.region_triangles[half.region], [&](std::int32_t t) {
+      return is_above(half.side, t, plane, tolerance.rounding);
+    });
+  };
+  if (!is_all_above(m, of_fixed) && !is_all_above(f, of_moving)) return false;
+  std::vector<Vec2> outline;
+  for (const std::int32_t v : m.shape->corners) outline.push_back(f.shape->frame.flat(m.side.vertex(v)));
+  RestingRegions resting{m.region, f.region, {}};
+  for (const Vec2& corner :
+       ConvexPolygon(convex_hull(std::move(outline))).cut_by(ConvexPolygon(f.shape->hull)).corners)
+    resting.shared_W.extend(f.shape->frame.lifted(corner));  // The fixed mesh's frame is the world.
+  if (resting.shared_W.isEmpty()) return false;              // They touch along a border at most.
+  frame.resting.push_back(resting);
+  return true;
+}
+
 void TouchingPairs::compare(Frame& frame, const RestingRegions& regions) {
   const auto half = [](const ShapeSide& side, std::int32_t region, std::vector<Vec3>& room) {
     return Half(side, {FeatureKind::FACE, side.shape.regions.region_triangles[region].front()}, room);
   };
   decide_triangles_of(frame, half(frame.pair.moving, regions.moving, points_moving_),
-                      half(frame.pair.fixed, regions.fixed, points_fixed_));
-  asked_.clear();  // decide_resting asked.
+                      half(frame.pair.fixed, regions.fixed, points_fixed_), true);
 }
 
 }  // namespace lmdbench

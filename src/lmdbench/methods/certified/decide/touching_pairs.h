@@ -6,6 +6,7 @@
 #include <lmdbench/decision/drop_intersecting.h>
 #include <lmdbench/decision/intersection_polylines.h>
 #include <lmdbench/decision/intersections.h>
+#include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/methods/certified/decide/certificate.h>
 #include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
@@ -53,8 +54,10 @@ class TouchingPairs {
   void decide_not_crossing(Frame& frame, Batch& batch);
   Certificate decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
   Certificate decide_regions(Frame& frame, const WidePair& pair);
-  void decide_triangles_of(Frame& frame, const Half& moving, const Half& fixed);
-  bool decide_resting(Frame& frame, const Half& moving, const Half& fixed);
+  void decide_triangles_of(Frame& frame, const Half& moving, const Half& fixed, bool is_noted);
+  bool note_along_borders(const Frame& frame, const Half& moving, const Half& fixed);
+  static bool are_at_rest(Frame& frame, const Half& moving, const Half& fixed);
+  static TrianglePairDistance intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
 
   std::vector<Certificate> certificates_;
   std::vector<std::pair<FeatureId, FeatureId>> asked_;  ///< Corners and chains within touch.
