@@ -123,6 +123,20 @@ std::vector<Intersection> intersections_of(const ShapePair& pair) {
   return result;
 }
 
+TEST(Rest, ABoxInAnInnerCornerIntersectsWhereItIsInTheWall) {
+  // It rests on the floor; its triangles in the wall are at that contact, on both sides of the plane.
+  for (const double depth : {1e-12, 1e-6, 0.01}) {
+    ShapeScene scene(translated(make_box({0.4, 0.4, 0.4}), Vec3::Constant(0.2)), inner_corner(1.0, 1.0), 0.1);
+    const ShapePair pair = scene.at(turned_by(0.0, Vec3::UnitZ(), Vec3(-depth, 0.3, 0.0)));
+    ContactSet contacts = scene.contacts(pair);
+    std::vector<Intersection> intersections = intersections_of(pair);
+    LmdSet lmds;
+    join_contacts(pair, 0, contacts, intersections, lmds);
+    EXPECT_FALSE(intersections.empty()) << depth;
+    for (const Lmd& lmd : lmds) EXPECT_NE(lmd.feature_moving.kind, FeatureKind::FACE) << text(lmds);
+  }
+}
+
 TEST(Rest, ABoxThatOverhangsTwoEdgesTouchesWithADirection) {
   // Its walls cross the other's, each on both sides of the other's plane; the contact's is between.
   std::mt19937_64 random(46);

@@ -204,13 +204,11 @@ TEST(FlatScenes, TrianglesOfFacesAtRestAreNotCompared) {
 }
 
 TEST(FlatScenes, FacesAtRestOfPartsThatIntersectBesideAreCompared) {
-  // On the floor, and in the wall by more than rounding.
-  const TriangleMesh corner =
-      merged(make_box({0.4, 0.4, 0.1}, 4), translated(make_box({0.1, 0.4, 0.4}, 4), Vec3(-0.25, 0.0, 0.15)));
-  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), corner, 0.02));
+  // On the floor of the notch, and in its wall by more than rounding or less.
+  FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_l_block(0.4), 0.02));
   for (const double depth : {1e-3, 1e-6, 1e-9, 0.0, -1e-9, -1e-3})
     for (const double y : {0.0, 0.03, 0.17, 0.2})
-      boxes.check({Vec3(-0.15 - depth, y, 0.1), Eigen::Quaterniond::Identity()});
+      boxes.check({Vec3(0.05 - depth, y, 0.05), Eigen::Quaterniond::Identity()});
   EXPECT_GT(boxes.found(), 24u);
 }
 

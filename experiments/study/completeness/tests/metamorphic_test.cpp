@@ -101,6 +101,23 @@ void expect_same_answers(const ScenePair& pair, std::uint64_t seed, const std::s
   }
 }
 
+/// Of both exact methods: parts of design coordinates touch, and intersect nowhere by more than rounding.
+void expect_directions(const parts::RestScene& scene) {
+  for (const char* method : {"exhaustive", "certified"})
+    for (const Lmd& lmd : lmds_at(*make_method(method, scene.scene), scene.X_WM))
+      EXPECT_FALSE(lmd.intersecting) << method << ": " << scene.text;
+}
+
+TEST(RestScenes, TouchWithDirectionsAlone) {
+  for (const parts::RestFit& fit : parts::rest_fits())
+    for (std::size_t index = 0; index < 15; ++index)
+      if (const parts::RestScene scene = make_rest_scene(fit, 9, index); !scene.single_precision)
+        expect_directions(scene);
+  // Two triangles touch in a point, both on both sides of the other's plane and of every contact's:
+  // planes along their edges are between them.
+  expect_directions(make_rest_scene(parts::rest_fit("comb in comb"), 5, 74));
+}
+
 TEST(Metamorphic, NothingChangesTheAnswerAtRest) {
   std::uint64_t seed = 0;
   for (const parts::RestFit& fit : parts::rest_fits()) {
