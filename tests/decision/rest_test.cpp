@@ -124,7 +124,7 @@ std::vector<Intersection> intersections_of(const ShapePair& pair) {
 }
 
 TEST(Rest, ABoxInAnInnerCornerIntersectsWhereItIsInTheWall) {
-  // It rests on the floor; its triangles in the wall are at that contact, on both sides of the plane.
+  // It rests on the floor; its triangles in the wall are at that contact, on both sides of it.
   for (const double depth : {1e-12, 1e-6, 0.01}) {
     ShapeScene scene(translated(make_box({0.4, 0.4, 0.4}), Vec3::Constant(0.2)), inner_corner(1.0, 1.0), 0.1);
     const ShapePair pair = scene.at(turned_by(0.0, Vec3::UnitZ(), Vec3(-depth, 0.3, 0.0)));
