@@ -101,7 +101,7 @@ void expect_same_answers(const ScenePair& pair, std::uint64_t seed, const std::s
   }
 }
 
-/// Of both exact methods: parts of design coordinates touch, and intersect nowhere by more than rounding.
+/// Of both exact methods: parts in the design's coordinates intersect by no more than rounding.
 void expect_directions(const parts::RestScene& scene) {
   for (const char* method : {"exhaustive", "certified"})
     for (const Lmd& lmd : lmds_at(*make_method(method, scene.scene), scene.X_WM))
