@@ -243,7 +243,7 @@ void TouchingPairs::decide_not_crossing(Frame& frame, Batch& batch) {
 /// Compares two triangles exactly, and lists what they share.
 TrianglePairDistance TouchingPairs::intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
-  const TrianglePairDistance nearest = triangle_distance(moving.triangle(t_moving), fixed.triangle(t_fixed));
+  TrianglePairDistance nearest = triangle_distance(moving.triangle(t_moving), fixed.triangle(t_fixed));
   ++frame.triangle_distances;
   if (nearest.intersecting) {
     note_crossing(frame, t_moving, t_fixed);
