@@ -28,6 +28,7 @@ MACHINE="$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1), $
 in_fresh_clone() {
   local clone status=0
   clone="$(mktemp -d)"
+  chmod 755 "$clone" # some tests run the program as another user
   git clone --quiet "$ROOT" "$clone/lmdbench" && git -C "$clone/lmdbench" checkout --quiet --detach "$COMMIT" &&
     (cd "$clone/lmdbench" && "$@" </dev/null) || status=$?
   rm -rf "$clone"
