@@ -114,11 +114,8 @@ std::vector<Intersection> intersections_of(const ShapePair& pair) {
   std::vector<Intersection> result;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(moving.mesh.triangles.size()); ++t)
     for (std::int32_t s = 0; s < static_cast<std::int32_t>(fixed.mesh.triangles.size()); ++s) {
-      const TrianglePairDistance d =
-          triangle_distance(pair.moving.X_WS.triangle(moving.mesh.triangle(t)), fixed.mesh.triangle(s));
-      if (d.intersecting)
-        result.push_back({moving.feature_of(t, d.feature_a), fixed.feature_of(s, d.feature_b), t, s, 0,
-                          d.minimiser_dimension, d.minimiser_measure, d.point_a});
+      const TrianglePairDistance d = triangle_distance(pair.moving.triangle(t), pair.fixed.triangle(s));
+      if (d.intersecting) result.push_back(intersection_of(pair, t, s, 0, d));
     }
   return result;
 }

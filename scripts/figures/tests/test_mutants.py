@@ -25,7 +25,7 @@ def mutants():
 def tests_of_programs():
     """Suite.Test of each program of lmdbench_add_test; of values without the instance's name."""
     found = {}
-    for listing in ROOT.glob("[!b]*/**/CMakeLists.txt"):
+    for listing in (*ROOT.glob("tests/**/CMakeLists.txt"), *ROOT.glob("experiments/**/CMakeLists.txt")):
         for program, sources in re.findall(r"lmdbench_add_test\((\w+)\s.*?SOURCES(.*?)DEPENDS", listing.read_text(), re.DOTALL):
             for source in sources.split():
                 tests = re.findall(r"^(?:TYPED_)?TEST(?:_P|_F)?\((\w+), (\w+)\)", (listing.parent / source).read_text(), re.MULTILINE)

@@ -54,7 +54,8 @@ bool edges_are_between(const ShapePair& pair, const Intersection& crossing) {
     for (std::size_t j = 0; j < 3; ++j) {
       const Vec3 u = a[(i + 1) % 3] - a[i], v = b[(j + 1) % 3] - b[j], product = u.cross(v);
       if (product.norm() < LEAST_EDGE_PRODUCT * longest * std::max(u.norm(), v.norm())) continue;
-      const Extent of_a = extent_along(a, product.normalized()), of_b = extent_along(b, product.normalized());
+      const Vec3 axis = product.normalized();
+      const Extent of_a = extent_along(a, axis), of_b = extent_along(b, axis);
       if (std::min(of_a.greatest - of_b.least, of_b.greatest - of_a.least) <= 2.0 * pair.tolerance.rounding)
         return true;
     }
@@ -160,11 +161,8 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
 }
 
 std::vector<Intersection> take_touching(const ShapePair& pair, std::int32_t fixed_body,
-                                        const ContactPlaces& places, std::span<const Contact> contacts,
-                                        std::vector<Intersection>& intersections) {
+                                        TouchingContacts& near, std::vector<Intersection>& intersections) {
   std::vector<Intersection> taken;
-  if (intersections.empty()) return taken;
-  TouchingContacts near(pair, places, contacts);
   if (near.empty()) return taken;
   std::erase_if(intersections, [&](const Intersection& crossing) {
     if (crossing.fixed_body != fixed_body) return false;

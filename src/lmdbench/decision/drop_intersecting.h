@@ -75,8 +75,7 @@ class TouchingContacts {
 /// @param intersections  of all fixed bodies
 /// @return the pairs taken out, all of one fixed body
 std::vector<Intersection> take_touching(const ShapePair& pair, std::int32_t fixed_body,
-                                        const ContactPlaces& places, std::span<const Contact> contacts,
-                                        std::vector<Intersection>& intersections);
+                                        TouchingContacts& near, std::vector<Intersection>& intersections);
 
 /// Drops contacts nearer than rounding whose triangles intersect (reported by intersections.h).
 /// @param intersections  of all fixed bodies

@@ -91,6 +91,18 @@ struct CrossingContact {
 
 }  // namespace
 
+Intersection intersection_of(const ShapePair& pair, std::int32_t triangle_moving, std::int32_t triangle_fixed,
+                             std::int32_t fixed_body, const TrianglePairDistance& nearest) {
+  return {pair.moving.surface.feature_of(triangle_moving, nearest.feature_a),
+          pair.fixed.surface.feature_of(triangle_fixed, nearest.feature_b),
+          triangle_moving,
+          triangle_fixed,
+          fixed_body,
+          nearest.minimiser_dimension,
+          nearest.minimiser_measure,
+          nearest.point_a};
+}
+
 void append_contacts(const Scene& scene, std::vector<Intersection>& intersections, LmdSet& lmds) {
   if (intersections.empty()) return;
   sort_by_features(intersections);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/decision/decide.h>
+#include <lmdbench/geometry/triangle_distance.h>
 #include <lmdbench/lmd/critical_pair.h>
 #include <lmdbench/lmd/lmd.h>
 #include <lmdbench/lmd/scene.h>
@@ -21,6 +23,11 @@ struct Intersection {
   double measure;
   Vec3 point;  ///< world
 };
+
+/// What two triangles share.
+/// @param nearest  of the two triangles, which intersect
+Intersection intersection_of(const ShapePair& pair, std::int32_t triangle_moving, std::int32_t triangle_fixed,
+                             std::int32_t fixed_body, const TrianglePairDistance& nearest);
 
 /// Appends one LMD of distance 0 for each contact: pairs of triangles that intersect are of one
 /// contact where their features share corners on both meshes (DEFINITION.md). The centroid of what

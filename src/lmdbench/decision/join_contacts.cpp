@@ -90,15 +90,16 @@ class Joining {
 
   void run(std::vector<Intersection>& intersections, const AtRest& at_rest) {
     std::vector<RestingRegions> held;  // By a contact, as take_touching would find.
-    if (!at_rest.regions.empty()) {
-      const TouchingContacts near(pair_, places_, contacts_);
+    std::vector<Intersection> touching;
+    if (!intersections.empty() || !at_rest.regions.empty()) {
+      TouchingContacts near(pair_, places_, contacts_);
       for (const RestingRegions& regions : at_rest.regions)
         if (near.hold(regions))
           held.push_back(regions);
         else
           at_rest.compare(regions, intersections);
+      touching = take_touching(pair_, body_, near, intersections);
     }
-    std::vector<Intersection> touching = take_touching(pair_, body_, places_, contacts_, intersections);
     drop_intersecting(pair_, body_, places_, intersections, contacts_);
     std::vector<Contact> covered;
     if (signs_ == nullptr) covered = take_covered(pair_, contacts_);

@@ -29,8 +29,7 @@ class PlacedRegion {
   PlacedRegion(const ShapeSide& side, std::int32_t region, const PlanarFrame& frame_W)
       : shape_(side.shape.shapes.of_region(region)) {
     if (shape_ == nullptr) {
-      const Triangle t = side.surface.mesh.triangle(side.shape.lead_of_region(region));
-      single_ = ConvexPolygon(frame_W, side.is_moving ? side.X_WS.triangle(t) : t);
+      single_ = ConvexPolygon(frame_W, side.triangle(side.shape.lead_of_region(region)));
       return;
     }
     const Vec3& origin = shape_->frame.origin;

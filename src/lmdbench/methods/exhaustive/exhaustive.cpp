@@ -74,16 +74,14 @@ void Exhaustive::for_each_feature_pair(const ShapePair& pair, WorkCounters& coun
 void Exhaustive::find_intersections(const ShapePair& pair, WorkCounters& counters) {
   const Surface &moving = pair.moving.surface, &fixed = pair.fixed.surface;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(moving.mesh.triangles.size()); ++t) {
-    const Triangle a = pair.moving.X_WS.triangle(moving.mesh.triangle(t));
+    const Triangle a = pair.moving.triangle(t);
     grid_.for_each_near(
         placed_box(pair.moving, {FeatureKind::FACE, t}), pair.tolerance.rounding, [&](const FeatureId& near) {
           if (near.kind != FeatureKind::FACE) return;
           ++counters[Counter::TRIANGLE_DISTANCES];
           const TrianglePairDistance distance = triangle_distance(a, fixed.mesh.triangle(near.index));
-          if (!distance.intersecting) return;
-          intersections_.push_back(
-              {moving.feature_of(t, distance.feature_a), fixed.feature_of(near.index, distance.feature_b), t,
-               near.index, 0, distance.minimiser_dimension, distance.minimiser_measure, distance.point_a});
+          if (distance.intersecting)
+            intersections_.push_back(intersection_of(pair, t, near.index, 0, distance));
         });
   }
 }

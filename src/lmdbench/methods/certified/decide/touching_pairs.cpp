@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace lmdbench {
 
@@ -242,15 +243,12 @@ void TouchingPairs::decide_not_crossing(Frame& frame, Batch& batch) {
 
 /// Compares two triangles exactly, and lists what they share.
 TrianglePairDistance TouchingPairs::intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed) {
-  const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
-  TrianglePairDistance nearest = triangle_distance(moving.triangle(t_moving), fixed.triangle(t_fixed));
+  TrianglePairDistance nearest =
+      triangle_distance(frame.pair.moving.triangle(t_moving), frame.pair.fixed.triangle(t_fixed));
   ++frame.triangle_distances;
   if (nearest.intersecting) {
     note_crossing(frame, t_moving, t_fixed);
-    frame.intersections.push_back({moving.surface.feature_of(t_moving, nearest.feature_a),
-                                   fixed.surface.feature_of(t_fixed, nearest.feature_b), t_moving, t_fixed,
-                                   frame.body, nearest.minimiser_dimension, nearest.minimiser_measure,
-                                   nearest.point_a});
+    frame.intersections.push_back(intersection_of(frame.pair, t_moving, t_fixed, frame.body, nearest));
   }
   return nearest;
 }
@@ -341,7 +339,10 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
       return {gap.gap - margin, gap.axis};
   }
   const bool is_noted = note_along_borders(frame, m, f);
-  if (!is_noted || !are_at_rest(frame, m, f)) decide_triangles_of(frame, m, f, is_noted);
+  if (const auto resting = is_noted ? find_rest(frame, m, f) : std::nullopt)
+    frame.resting.push_back(*resting);
+  else
+    decide_triangles_of(frame, m, f, is_noted);
   return {};
 }
 
@@ -406,29 +407,28 @@ bool TouchingPairs::note_along_borders(const Frame& frame, const Half& m, const 
   return true;
 }
 
-/// Whether the triangles of two regions need not be compared, as they rest on each other.
-bool TouchingPairs::are_at_rest(Frame& frame, const Half& m, const Half& f) {
-  if (frame.crossing_pairs != nullptr) return false;
+/// Two regions whose triangles need not be compared, as they rest on each other.
+std::optional<RestingRegions> TouchingPairs::find_rest(const Frame& frame, const Half& m, const Half& f) {
+  if (frame.crossing_pairs != nullptr) return std::nullopt;
   const ContactTolerance& tolerance = frame.pair.tolerance;
   const Plane of_moving = m.side.plane(m.region), of_fixed = f.side.plane(f.region);
   if (of_moving.normal.dot(of_fixed.normal) > 0.0 ||
       of_moving.normal.cross(of_fixed.normal).norm() > 2.0 * tolerance.largest_tilt)
-    return false;
+    return std::nullopt;
   const auto is_all_above = [&](const Half& half, const Plane& plane) {
     return std::ranges::all_of(half.side.shape.regions.region_triangles[half.region], [&](std::int32_t t) {
       return is_above(half.side, t, plane, tolerance.rounding);
     });
   };
-  if (!is_all_above(m, of_fixed) && !is_all_above(f, of_moving)) return false;
+  if (!is_all_above(m, of_fixed) && !is_all_above(f, of_moving)) return std::nullopt;
   std::vector<Vec2> outline;
   for (const std::int32_t v : m.shape->corners) outline.push_back(f.shape->frame.flat(m.side.vertex(v)));
   RestingRegions resting{m.region, f.region, {}};
   for (const Vec2& corner :
        ConvexPolygon(convex_hull(std::move(outline))).cut_by(ConvexPolygon(f.shape->hull)).corners)
     resting.shared_W.extend(f.shape->frame.lifted(corner));  // The fixed mesh's frame is the world.
-  if (resting.shared_W.isEmpty()) return false;              // They touch along a border at most.
-  frame.resting.push_back(resting);
-  return true;
+  if (resting.shared_W.isEmpty()) return std::nullopt;       // They touch along a border at most.
+  return resting;
 }
 
 void TouchingPairs::compare(Frame& frame, const RestingRegions& regions) {

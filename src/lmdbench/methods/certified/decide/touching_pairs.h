@@ -11,6 +11,7 @@
 #include <lmdbench/methods/certified/traverse/wide_traversal.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -56,7 +57,7 @@ class TouchingPairs {
   Certificate decide_regions(Frame& frame, const WidePair& pair);
   void decide_triangles_of(Frame& frame, const Half& moving, const Half& fixed, bool is_noted);
   bool note_along_borders(const Frame& frame, const Half& moving, const Half& fixed);
-  static bool are_at_rest(Frame& frame, const Half& moving, const Half& fixed);
+  static std::optional<RestingRegions> find_rest(const Frame& frame, const Half& moving, const Half& fixed);
   static TrianglePairDistance intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
 
   std::vector<Certificate> certificates_;
