@@ -45,7 +45,7 @@ struct ExactAgreement {
   int exact = 0;          ///< Exact LMDs.
   int uncertain = 0;      ///< Of these, decided by rounding, so not required.
   int same_features = 0;  ///< Of these, found with the same feature pair.
-  int same_contact = 0;   ///< Found in a plateau: same distance vector and plane.
+  int same_contact = 0;   ///< Found in a plateau: its distance vector and plane.
   std::vector<ExactLmd> missed;
   int found = 0;  ///< LMDs of the judged set at a distance above 0.
   LmdSet untrue;  ///< Of these, those that match no exact LMD.
@@ -54,7 +54,9 @@ struct ExactAgreement {
   int sharing = 0;
 };
 
-ExactAgreement compare_with_exact(const LmdSet& found, const std::vector<ExactLmd>& exact);
+/// @param scene  whose meshes say how far the gap of a plateau may change (DEFINITION.md)
+ExactAgreement compare_with_exact(const Scene& scene, const LmdSet& found,
+                                  const std::vector<ExactLmd>& exact);
 
 /// Whether a reported LMD meets the first-order condition up to a sine of 1e-9 and rounding: true
 /// for nearly parallel faces and edges, and for segments made of triangles without area.

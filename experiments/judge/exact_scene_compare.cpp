@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/contact_tolerance.h>
+#include <lmdbench/geometry/tolerance.h>
+
 #include <judge/exact_scene.h>
 #include <judge/exact_scene_body.h>
 
@@ -16,10 +19,27 @@ bool same_features(const Lmd& found, const ExactLmd& exact) {
          found.feature_fixed == exact.feature_fixed;
 }
 
-/// The tolerance of plateaus (lmd/plateau.h): distance vectors are equal up to rounding and the
-/// tilt of faces that count as parallel. Here they must also share one plane of contact.
-bool same_contact(const Lmd& found, const ExactLmd& exact) {
-  constexpr double PLATEAU = 1e-9, PARALLEL = 2e-9;
+/// What the definition grants to contacts of one LMD (DEFINITION.md, "In floating-point numbers").
+struct Granted {
+  /// Difference of distances: the tolerance, and once more for each that is extended [m].
+  double length = 0.0;
+  double tilt = 0.0;  ///< Sine between directions.
+};
+
+Granted granted_to(const Scene& scene, std::int32_t fixed_body) {
+  double tolerance = 0.0, coordinates = 0.0;
+  for (const Surface* surface :
+       {&scene.moving->surface(), &scene.fixed[static_cast<std::size_t>(fixed_body)]->surface()}) {
+    const double largest = largest_coordinate(surface->mesh.vertices);
+    tolerance += std::max(surface->mesh.planar_tolerance, LEAST_TOLERANCE * largest);
+    coordinates += largest;
+  }
+  return {3.0 * tolerance, std::min(LARGEST_PARALLEL_TILT, TILT_PER_TOLERANCE * tolerance / coordinates)};
+}
+
+/// Whether the exact LMD is a part of the plateau for which an LMD stands: distance vectors and
+/// planes of contact are equal up to what is granted.
+bool same_contact(const Lmd& found, const ExactLmd& exact, const Granted& granted) {
   if (found.fixed_body != exact.fixed_body) return false;
   const Vec3 apart = found.point_moving - exact.point_moving;
   const double coordinates =
@@ -27,22 +47,29 @@ bool same_contact(const Lmd& found, const ExactLmd& exact) {
   const double rounding = ROUNDINGS * std::numeric_limits<double>::epsilon() * coordinates;
   const Vec3 d = exact.point_fixed - exact.point_moving;
   const Vec3 difference = found.point_fixed - found.point_moving - d;
-  const double allowed = PLATEAU * exact.distance + PARALLEL * apart.norm() + rounding;
+  const double allowed = granted.length + granted.tilt * exact.distance + rounding;
   const double tilt = allowed / exact.distance;  // of the two planes of contact
   return difference.norm() <= allowed &&
-         std::abs(apart.dot(d)) <= exact.distance * (rounding + tilt * apart.norm());
+         std::abs(apart.dot(d)) <= exact.distance * (allowed + tilt * apart.norm());
 }
 
 }  // namespace
 
-ExactAgreement compare_with_exact(const LmdSet& found, const std::vector<ExactLmd>& exact) {
+ExactAgreement compare_with_exact(const Scene& scene, const LmdSet& found,
+                                  const std::vector<ExactLmd>& exact) {
+  std::vector<Granted> granted;
+  for (std::size_t body = 0; body < scene.fixed.size(); ++body)
+    granted.push_back(granted_to(scene, static_cast<std::int32_t>(body)));
+  const auto is_part_of = [&](const ExactLmd& truth, const Lmd& lmd) {
+    return same_contact(lmd, truth, granted[static_cast<std::size_t>(truth.fixed_body)]);
+  };
   ExactAgreement agreement;
   for (const ExactLmd& truth : exact) {
     ++agreement.exact;
     if (std::any_of(found.begin(), found.end(), [&](const Lmd& lmd) { return same_features(lmd, truth); })) {
       ++agreement.same_features;
     } else if (std::any_of(found.begin(), found.end(),
-                           [&](const Lmd& lmd) { return same_contact(lmd, truth); })) {
+                           [&](const Lmd& lmd) { return is_part_of(truth, lmd); })) {
       ++agreement.same_contact;
     } else if (!truth.certain) {
       ++agreement.uncertain;
@@ -56,7 +83,7 @@ ExactAgreement compare_with_exact(const LmdSet& found, const std::vector<ExactLm
     ++agreement.found;
     bool matches = false, shares = false;
     for (std::size_t i = 0; i < exact.size(); ++i) {
-      if (!same_features(lmd, exact[i]) && !same_contact(lmd, exact[i])) continue;
+      if (!same_features(lmd, exact[i]) && !is_part_of(exact[i], lmd)) continue;
       matches = true;
       shares = shares || taken[i];
       taken[i] = true;

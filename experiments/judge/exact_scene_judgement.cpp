@@ -16,7 +16,7 @@ namespace {
 
 void judge_frame(const Scene& scene, const Pose& X_WM, const std::vector<ExactLmd>& truth, bool touching,
                  const LmdSet& lmds, const std::string& frame, Judgement& judgement) {
-  const ExactAgreement agreement = compare_with_exact(lmds, truth);
+  const ExactAgreement agreement = compare_with_exact(scene, lmds, truth);
   ++judgement.frames;
   judgement.exact += agreement.exact;
   judgement.same_features += agreement.same_features;
@@ -94,13 +94,13 @@ std::string judgement_table(const std::vector<Judgement>& judgements) {
   row(all);
   return text + R"(
 Exact LMDs: feature pairs whose critical pair of distance meets the first-order condition on both sides in exact
-arithmetic, by brute force. Each is known with the same features, or as a part of a plateau (edges or faces parallel to
-a sine of 2e-9) that the method reports as one LMD, or missed. Left to rounding: not known, but the distance is within
-rounding of zero or the cutoff, or a triangle has no area. Sharing a plane: reported LMDs in one plane of contact with
-another one: pieces of a plateau that tolerances tore apart, or several feet on one plane. True by tolerance: reported
-LMDs that meet the condition but for a sine of 1e-9 and rounding: features that are parallel up to rounding, and
-triangles that are segments. Wrong contacts: frames in which exact intersection tests of all triangles and the method
-differ.
+arithmetic, by brute force. Each is known with the same features, or as a part of a plateau (edges or faces whose gap
+changes by no more than the definition's tolerance) that the method reports as one LMD, or missed. Left to rounding:
+not known, but the distance is within rounding of zero or the cutoff, or a triangle has no area. Sharing a plane:
+reported LMDs in one plane of contact with another one: pieces of a plateau that tolerances tore apart, or several feet
+on one plane. True by tolerance: reported LMDs that meet the condition but for a sine of 1e-9 and rounding: features
+that are parallel up to rounding, and triangles that are segments. Wrong contacts: frames in which exact intersection
+tests of all triangles and the method differ.
 )";
 }
 
