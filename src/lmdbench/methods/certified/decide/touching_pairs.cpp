@@ -338,7 +338,8 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
         gap.gap > margin)
       return {gap.gap - margin, gap.axis};
   }
-  const bool is_noted = note_along_borders(frame, m, f);
+  // Borders of gears have thousands of chains: it pays where regions may rest on each other.
+  const bool is_noted = are_opposed(frame, m, f) && note_along_borders(frame, m, f);
   if (const auto resting = is_noted ? find_rest(frame, m, f) : std::nullopt)
     frame.resting.push_back(*resting);
   else
@@ -407,18 +408,22 @@ bool TouchingPairs::note_along_borders(const Frame& frame, const Half& m, const 
   return true;
 }
 
+/// Whether two regions face each other in parallel planes.
+bool TouchingPairs::are_opposed(const Frame& frame, const Half& m, const Half& f) {
+  if (m.region < 0 || f.region < 0) return false;
+  const Vec3 of_moving = m.side.plane(m.region).normal, of_fixed = f.side.plane(f.region).normal;
+  return of_moving.dot(of_fixed) < 0.0 &&
+         of_moving.cross(of_fixed).norm() <= 2.0 * frame.pair.tolerance.largest_tilt;
+}
+
 /// Two regions whose triangles need not be compared, as they rest on each other.
 std::optional<RestingRegions> TouchingPairs::find_rest(const Frame& frame, const Half& m, const Half& f) {
   if (frame.crossing_pairs != nullptr) return std::nullopt;
-  const ContactTolerance& tolerance = frame.pair.tolerance;
+  const double rounding = frame.pair.tolerance.rounding;
   const Plane of_moving = m.side.plane(m.region), of_fixed = f.side.plane(f.region);
-  if (of_moving.normal.dot(of_fixed.normal) > 0.0 ||
-      of_moving.normal.cross(of_fixed.normal).norm() > 2.0 * tolerance.largest_tilt)
-    return std::nullopt;
   const auto is_all_above = [&](const Half& half, const Plane& plane) {
-    return std::ranges::all_of(half.side.shape.regions.region_triangles[half.region], [&](std::int32_t t) {
-      return is_above(half.side, t, plane, tolerance.rounding);
-    });
+    return std::ranges::all_of(half.side.shape.regions.region_triangles[half.region],
+                               [&](std::int32_t t) { return is_above(half.side, t, plane, rounding); });
   };
   if (!is_all_above(m, of_fixed) && !is_all_above(f, of_moving)) return std::nullopt;
   std::vector<Vec2> outline;

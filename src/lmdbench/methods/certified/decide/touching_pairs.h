@@ -56,6 +56,7 @@ class TouchingPairs {
   Certificate decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
   Certificate decide_regions(Frame& frame, const WidePair& pair);
   void decide_triangles_of(Frame& frame, const Half& moving, const Half& fixed, bool is_noted);
+  static bool are_opposed(const Frame& frame, const Half& moving, const Half& fixed);
   bool note_along_borders(const Frame& frame, const Half& moving, const Half& fixed);
   static std::optional<RestingRegions> find_rest(const Frame& frame, const Half& moving, const Half& fixed);
   static TrianglePairDistance intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
