@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/contact_tolerance.h>
-#include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <judge/exact_scene.h>
 #include <judge/exact_scene_body.h>
@@ -19,27 +19,10 @@ bool same_features(const Lmd& found, const ExactLmd& exact) {
          found.feature_fixed == exact.feature_fixed;
 }
 
-/// What the definition grants to contacts of one LMD (DEFINITION.md, "In floating-point numbers").
-struct Granted {
-  /// Difference of distances: the tolerance, and once more for each that is extended [m].
-  double length = 0.0;
-  double tilt = 0.0;  ///< Sine between directions.
-};
-
-Granted granted_to(const Scene& scene, std::int32_t fixed_body) {
-  double tolerance = 0.0, coordinates = 0.0;
-  for (const Surface* surface :
-       {&scene.moving->surface(), &scene.fixed[static_cast<std::size_t>(fixed_body)]->surface()}) {
-    const double largest = largest_coordinate(surface->mesh.vertices);
-    tolerance += std::max(surface->mesh.planar_tolerance, LEAST_TOLERANCE * largest);
-    coordinates += largest;
-  }
-  return {3.0 * tolerance, std::min(LARGEST_PARALLEL_TILT, TILT_PER_TOLERANCE * tolerance / coordinates)};
-}
-
 /// Whether the exact LMD is a part of the plateau for which an LMD stands: distance vectors and
-/// planes of contact are equal up to what is granted.
-bool same_contact(const Lmd& found, const ExactLmd& exact, const Granted& granted) {
+/// planes of contact are equal up to what the definition grants to one LMD: the tolerance, and once
+/// more for each contact that is extended.
+bool same_contact(const Lmd& found, const ExactLmd& exact, const ContactTolerance& tolerance) {
   if (found.fixed_body != exact.fixed_body) return false;
   const Vec3 apart = found.point_moving - exact.point_moving;
   const double coordinates =
@@ -47,7 +30,7 @@ bool same_contact(const Lmd& found, const ExactLmd& exact, const Granted& grante
   const double rounding = ROUNDINGS * std::numeric_limits<double>::epsilon() * coordinates;
   const Vec3 d = exact.point_fixed - exact.point_moving;
   const Vec3 difference = found.point_fixed - found.point_moving - d;
-  const double allowed = granted.length + granted.tilt * exact.distance + rounding;
+  const double allowed = 3.0 * tolerance.known + tolerance.largest_tilt * exact.distance + rounding;
   const double tilt = allowed / exact.distance;  // of the two planes of contact
   return difference.norm() <= allowed &&
          std::abs(apart.dot(d)) <= exact.distance * (allowed + tilt * apart.norm());
@@ -57,11 +40,14 @@ bool same_contact(const Lmd& found, const ExactLmd& exact, const Granted& grante
 
 ExactAgreement compare_with_exact(const Scene& scene, const LmdSet& found,
                                   const std::vector<ExactLmd>& exact) {
-  std::vector<Granted> granted;
-  for (std::size_t body = 0; body < scene.fixed.size(); ++body)
-    granted.push_back(granted_to(scene, static_cast<std::int32_t>(body)));
+  const Body& moving = *scene.moving;
+  std::vector<ContactTolerance> tolerances;  // their lengths do not depend on the pose
+  for (const FixedBody& fixed : scene.fixed)
+    tolerances.push_back(ContactTolerance::of(moving.surface(), moving.prepared<ShapeComplex>(),
+                                              fixed->surface(), fixed->prepared<ShapeComplex>(),
+                                              RigidTransform(), 0.0));
   const auto is_part_of = [&](const ExactLmd& truth, const Lmd& lmd) {
-    return same_contact(lmd, truth, granted[static_cast<std::size_t>(truth.fixed_body)]);
+    return same_contact(lmd, truth, tolerances[static_cast<std::size_t>(truth.fixed_body)]);
   };
   ExactAgreement agreement;
   for (const ExactLmd& truth : exact) {

@@ -338,8 +338,7 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
         gap.gap > margin)
       return {gap.gap - margin, gap.axis};
   }
-  // Borders of gears have thousands of chains: it pays where regions may rest on each other.
-  const bool is_noted = are_opposed(frame, m, f) && note_along_borders(frame, m, f);
+  const bool is_noted = note_along_borders(frame, m, f);
   if (const auto resting = is_noted ? find_rest(frame, m, f) : std::nullopt)
     frame.resting.push_back(*resting);
   else
@@ -380,9 +379,10 @@ void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half&
 }
 
 /// Notes corners and chains within touch of each other where both regions have all of theirs on
-/// their borders; else false.
+/// their borders and may rest on each other; else false. (For others it does not pay: the border of
+/// a gear's face has thousands of chains.)
 bool TouchingPairs::note_along_borders(const Frame& frame, const Half& m, const Half& f) {
-  if (!m.has_plain_border() || !f.has_plain_border()) return false;
+  if (!m.has_plain_border() || !f.has_plain_border() || !are_opposed(frame, m, f)) return false;
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   const auto note_corners_beside_chains = [&](const Half& of_corners, const Half& of_chains) {
     for (const std::int32_t v : of_corners.shape->corners) {
@@ -410,13 +410,13 @@ bool TouchingPairs::note_along_borders(const Frame& frame, const Half& m, const 
 
 /// Whether two regions face each other in parallel planes.
 bool TouchingPairs::are_opposed(const Frame& frame, const Half& m, const Half& f) {
-  if (m.region < 0 || f.region < 0) return false;
   const Vec3 of_moving = m.side.plane(m.region).normal, of_fixed = f.side.plane(f.region).normal;
   return of_moving.dot(of_fixed) < 0.0 &&
          of_moving.cross(of_fixed).norm() <= 2.0 * frame.pair.tolerance.largest_tilt;
 }
 
 /// Two regions whose triangles need not be compared, as they rest on each other.
+/// @pre note_along_borders() is true of them
 std::optional<RestingRegions> TouchingPairs::find_rest(const Frame& frame, const Half& m, const Half& f) {
   if (frame.crossing_pairs != nullptr) return std::nullopt;
   const double rounding = frame.pair.tolerance.rounding;
