@@ -7,6 +7,7 @@
 #include <support/rounded.h>
 
 #include <algorithm>
+#include <map>
 
 namespace lmdbench {
 namespace {
@@ -87,15 +88,31 @@ TEST(FlatRegions, AnEdgeOfThreeFacesIsOnTheBorderOfEach) {
 }
 
 TEST(FlatRegions, NamesTheFirstEdgeAtAPoint) {
-  const Surface surface = build_surface(make_box(Vec3(1.0, 1.0, 1.0), 3));
-  const FlatRegions regions = FlatRegions::of(surface);
-  for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e) {
-    const std::int32_t straight = regions.straight_of_edge[static_cast<std::size_t>(e)];
-    if (straight < 0) continue;
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(e)];
-    const Vec3 middle = 0.5 * (surface.mesh.vertices[static_cast<std::size_t>(ends[0])] +
-                               surface.mesh.vertices[static_cast<std::size_t>(ends[1])]);
-    EXPECT_EQ(regions.edge_at(surface, straight, middle), e);
+  // Points beside a line and beyond its ends count as the nearest one on it. The second box has edges
+  // only a few tolerances long.
+  for (const Vec3& extents : {Vec3(1.0, 1.0, 1.0), Vec3(1.0, 30.0, 2e-6)}) {
+    const Surface surface = build_surface(make_box(extents, 17));
+    const FlatRegions regions = FlatRegions::of(surface);
+    const auto vertex = [&](std::int32_t v) { return surface.mesh.vertices[static_cast<std::size_t>(v)]; };
+    for (std::size_t s = 0; s < regions.straight_edges.size(); ++s) {
+      const auto straight = static_cast<std::int32_t>(s);
+      const auto edges = regions.edges_of_straight[straight];
+      ASSERT_EQ(edges.size(), 17u);
+      const auto& line = regions.straight_edges[s].ends;
+      const Vec3 beside = 1e-3 * (vertex(line[1]) - vertex(line[0])).unitOrthogonal();
+      std::map<std::int32_t, std::int32_t> first_at;
+      for (const std::int32_t e : edges) {
+        const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(e)];
+        EXPECT_EQ(regions.edge_at(surface, straight, 0.5 * (vertex(ends[0]) + vertex(ends[1])) + beside), e);
+        for (const std::int32_t v : ends) {
+          std::int32_t& first = first_at.try_emplace(v, e).first->second;
+          first = std::min(first, e);
+        }
+      }
+      for (const auto& [v, first] : first_at) EXPECT_EQ(regions.edge_at(surface, straight, vertex(v)), first);
+      const Vec3 beyond = 2.0 * vertex(line[1]) - vertex(line[0]);
+      EXPECT_EQ(regions.edge_at(surface, straight, beyond), first_at[line[1]]);
+    }
   }
 }
 

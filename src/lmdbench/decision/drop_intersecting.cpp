@@ -109,16 +109,18 @@ std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const
   return star;
 }
 
-std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(const FeatureId& moving,
-                                                                      const FeatureId& fixed) const {
-  const std::pair features(moving, fixed);
-  const auto first = std::ranges::lower_bound(entries_, features, {}, &Entry::features);
-  return {first, std::find_if(first, entries_.end(), [&](const Entry& e) { return e.features != features; })};
+std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(const FeatureId& moving) const {
+  return std::ranges::equal_range(entries_, moving, {}, [](const Entry& e) { return e.features.first; });
+}
+
+std::span<const TouchingContacts::Entry> TouchingContacts::with(std::span<const Entry> entries,
+                                                                const FeatureId& fixed) {
+  return std::ranges::equal_range(entries, fixed, {}, [](const Entry& e) { return e.features.second; });
 }
 
 bool TouchingContacts::hold(const RestingRegions& resting) const {
   return std::ranges::any_of(
-      entries_of({FeatureKind::FACE, resting.moving}, {FeatureKind::FACE, resting.fixed}),
+      with(entries_of({FeatureKind::FACE, resting.moving}), {FeatureKind::FACE, resting.fixed}),
       [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
 }
 
@@ -152,11 +154,14 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
     });
   }
   for (const Features* features_moving : of_moving)
-    for (const FeatureId& f : *features_moving)
+    for (const FeatureId& f : *features_moving) {
+      const std::span<const Entry> entries = entries_of(f);
+      if (entries.empty()) continue;  // Of most features.
       for (const Features* features_fixed : of_fixed)
         for (const FeatureId& g : *features_fixed)
-          for (const Entry& entry : entries_of(f, g))
+          for (const Entry& entry : with(entries, g))
             if (!is_far(entry) && !visit(*entry.contact)) return false;
+    }
   return true;
 }
 

@@ -57,7 +57,8 @@ class TouchingContacts {
     Eigen::AlignedBox3d box_W;
     const Contact* contact;
   };
-  std::span<const Entry> entries_of(const FeatureId& moving, const FeatureId& fixed) const;
+  std::span<const Entry> entries_of(const FeatureId& moving) const;
+  static std::span<const Entry> with(std::span<const Entry> of_moving, const FeatureId& fixed);
   using Features = std::vector<FeatureId>;
   /// The features that have a corner at a vertex, faces first; filled as vertices are asked for.
   using FeaturesAt = std::unordered_map<std::int32_t, Features>;

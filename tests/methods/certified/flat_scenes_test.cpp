@@ -455,6 +455,32 @@ TEST(FlatScenes, WorkDoesNotGrowWithTheTriangles) {
   EXPECT_EQ(work_of(4), work_of(64));
 }
 
+/// Of two gears in mesh a few teeth are near each other, however many their faces' outlines have: work may
+/// grow with the teeth, not with their square. (Where every border is asked: a hundredfold.)
+TEST(FlatScenes, WorkGrowsAtMostWithTheTeethOfGears) {
+  const auto leaf_pairs_of = [](int teeth) {
+    const double radius = 0.5 * teeth;
+    const TriangleMesh gear =
+        make_sleeve(gear_outline(teeth, 1.0, 0.04), circle_outline(0.5 * radius), {2.0, 16 * teeth, 1, 1});
+    const auto method = make_method("certified", make_scene(gear, gear, 0.05));
+    LmdSet set;
+    WorkCounters counters;
+    for (int i = 0; i < 20; ++i) {
+      // A tooth in a gap, on one flank, rolling through a third of a tooth.
+      const double turn = (i / 60.0) * 2.0 * std::numbers::pi / teeth;
+      const double own = std::numbers::pi * (1.0 + 1.0 / teeth) + turn + 0.03 / radius;
+      const Eigen::Quaterniond along(Eigen::AngleAxisd(turn, Vec3::UnitZ()));
+      method->search({along * Vec3(2.0 * radius, 0.0, 0.0),
+                      along * Eigen::Quaterniond(Eigen::AngleAxisd(own, Vec3::UnitZ()))},
+                     set, counters);
+      EXPECT_GE(set.size(), 1u) << teeth << " " << i;
+    }
+    return counters[Certified::Counter::LEAF_PAIRS];
+  };
+  const auto of_few = leaf_pairs_of(12), of_many = leaf_pairs_of(96);
+  EXPECT_LE(of_many, 8 * of_few);
+}
+
 /// A box behind a strip, above both borders and above the face, which looks away.
 TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
   TriangleMesh strip;

@@ -349,12 +349,12 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
     TouchingPairs::Frame compared{pair,          0,       touch,          false, scratch.contacts,
                                   intersections, nullptr, scratch.resting};
     scratch.touching.compare(compared, regions);
-    frame.touching.triangle_pairs += compared.triangle_pairs;
+    frame.touching.pairs += compared.pairs;
     frame.touching.triangle_distances += compared.triangle_distances;
   };
   // By reference: std::function allocates for what is larger.
   join(pair, scratch.contacts, AtRest{scratch.resting, std::ref(compare)});
-  counters[Counter::LEAF_PAIRS] += frame.touching.triangle_pairs;
+  counters[Counter::LEAF_PAIRS] += frame.touching.pairs;
   counters[Counter::TRIANGLE_DISTANCES] += frame.touching.triangle_distances;
 }
 

@@ -176,7 +176,7 @@ std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
-    ++frame.triangle_pairs;
+    ++frame.pairs;
     if (is_joined && (shape_of(moving, on_moving) != nullptr || shape_of(fixed, on_fixed) != nullptr)) {
       certificates_[k] = decide_regions(frame, pairs[k]);
       continue;
@@ -363,7 +363,7 @@ void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half&
     if (small.region >= 0 && gap_to(small.side.plane(small.region), t).gap > margin) continue;
     small.find_faces_near(t, margin, faces_of_small_);
     for (const std::int32_t t_small : faces_of_small_) {
-      ++frame.triangle_pairs;
+      ++frame.pairs;
       const std::int32_t t_moving = moving_is_large ? t_large : t_small;
       const std::int32_t t_fixed = moving_is_large ? t_small : t_large;
       if (clear_gap(moving.triangle(t_moving), face_normal(moving, t_moving), fixed.triangle(t_fixed),
@@ -381,14 +381,16 @@ void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half&
 /// Notes corners and chains within touch of each other where both regions have all of theirs on
 /// their borders and may rest on each other; else false. (For others it does not pay: the border of
 /// a gear's face has thousands of chains.)
-bool TouchingPairs::note_along_borders(const Frame& frame, const Half& m, const Half& f) {
+bool TouchingPairs::note_along_borders(Frame& frame, const Half& m, const Half& f) {
   if (!m.has_plain_border() || !f.has_plain_border() || !are_opposed(frame, m, f)) return false;
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   const auto note_corners_beside_chains = [&](const Half& of_corners, const Half& of_chains) {
     for (const std::int32_t v : of_corners.shape->corners) {
       const Vec3 p = of_corners.side.vertex(v);
       const FeatureId corner{FeatureKind::VERTEX, v};
+      ++frame.pairs;
       of_chains.for_each_chain_near(p, p, margin, [&](std::int32_t chain) {
+        ++frame.pairs;
         const auto& ends = of_chains.side.shape.ends_of_chain(chain);
         const Segment segment{of_chains.side.vertex(ends[0]), of_chains.side.vertex(ends[1])};
         if (point_segment_distance(p, segment).squared_distance > margin * margin) return;
@@ -402,8 +404,11 @@ bool TouchingPairs::note_along_borders(const Frame& frame, const Half& m, const 
   note_corners_beside_chains(f, m);
   for (const std::int32_t chain : m.chains()) {
     const auto& ends = m.side.shape.ends_of_chain(chain);
-    f.for_each_chain_near(m.side.vertex(ends[0]), m.side.vertex(ends[1]), margin,
-                          [&](std::int32_t other) { note_if_parallel(frame, chain, other, asked_); });
+    ++frame.pairs;
+    f.for_each_chain_near(m.side.vertex(ends[0]), m.side.vertex(ends[1]), margin, [&](std::int32_t other) {
+      ++frame.pairs;
+      note_if_parallel(frame, chain, other, asked_);
+    });
   }
   return true;
 }

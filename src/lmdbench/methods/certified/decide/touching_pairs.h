@@ -38,8 +38,8 @@ class TouchingPairs {
     std::vector<Intersection>& intersections;
     std::vector<CrossingPair>* crossing_pairs;  ///< Of all that intersect; null: not asked.
     std::vector<RestingRegions>& resting;       ///< Whose triangles were not compared.
-    /// Counters.
-    std::uint64_t triangle_pairs = 0, triangle_distances = 0;
+    /// Counters: of triangles, and of what is looked up along borders; of triangles decided exactly.
+    std::uint64_t pairs = 0, triangle_distances = 0;
   };
 
   /// @return each pair's certificate, without lever arms; valid until the next call
@@ -57,7 +57,7 @@ class TouchingPairs {
   Certificate decide_regions(Frame& frame, const WidePair& pair);
   void decide_triangles_of(Frame& frame, const Half& moving, const Half& fixed, bool is_noted);
   static bool are_opposed(const Frame& frame, const Half& moving, const Half& fixed);
-  bool note_along_borders(const Frame& frame, const Half& moving, const Half& fixed);
+  bool note_along_borders(Frame& frame, const Half& moving, const Half& fixed);
   static std::optional<RestingRegions> find_rest(const Frame& frame, const Half& moving, const Half& fixed);
   static TrianglePairDistance intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
 
