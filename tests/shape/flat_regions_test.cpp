@@ -88,8 +88,8 @@ TEST(FlatRegions, AnEdgeOfThreeFacesIsOnTheBorderOfEach) {
 }
 
 TEST(FlatRegions, NamesTheFirstEdgeAtAPoint) {
-  // Points beside a line and beyond its ends count as the nearest one on it. The second box has edges
-  // only a few tolerances long.
+  // Points beside a line and beyond its ends count as the nearest one on it. The second box has
+  // edges only a few tolerances long.
   for (const Vec3& extents : {Vec3(1.0, 1.0, 1.0), Vec3(1.0, 30.0, 2e-6)}) {
     const Surface surface = build_surface(make_box(extents, 17));
     const FlatRegions regions = FlatRegions::of(surface);

@@ -455,8 +455,8 @@ TEST(FlatScenes, WorkDoesNotGrowWithTheTriangles) {
   EXPECT_EQ(work_of(4), work_of(64));
 }
 
-/// Of two gears in mesh a few teeth are near each other, however many their faces' outlines have: work may
-/// grow with the teeth, not with their square. (Where every border is asked: a hundredfold.)
+/// Of two gears in mesh a few teeth are near each other, however many their faces' outlines have:
+/// work may grow with the teeth, not with their square. (Where every border is asked: a hundredfold.)
 TEST(FlatScenes, WorkGrowsAtMostWithTheTeethOfGears) {
   const auto leaf_pairs_of = [](int teeth) {
     const double radius = 0.5 * teeth;

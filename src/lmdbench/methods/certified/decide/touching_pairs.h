@@ -38,7 +38,7 @@ class TouchingPairs {
     std::vector<Intersection>& intersections;
     std::vector<CrossingPair>* crossing_pairs;  ///< Of all that intersect; null: not asked.
     std::vector<RestingRegions>& resting;       ///< Whose triangles were not compared.
-    /// Counters: of triangles, and of what is looked up along borders; of triangles decided exactly.
+    /// Of triangles and of what is looked up along borders, and of triangles decided exactly.
     std::uint64_t pairs = 0, triangle_distances = 0;
   };
 
