@@ -89,9 +89,12 @@ TEST(FlatRegions, AnEdgeOfThreeFacesIsOnTheBorderOfEach) {
 
 TEST(FlatRegions, NamesTheFirstEdgeAtAPoint) {
   // Points beside a line and beyond its ends count as the nearest one on it. The second box has
-  // edges only a few tolerances long.
-  for (const Vec3& extents : {Vec3(1.0, 1.0, 1.0), Vec3(1.0, 30.0, 2e-6)}) {
-    const Surface surface = build_surface(make_box(extents, 17));
+  // edges only a few tolerances long; the third's are in the other order along their lines.
+  TriangleMesh turned_round = make_box(Vec3(1.0, 1.0, 1.0), 17);
+  std::ranges::reverse(turned_round.triangles);
+  for (const TriangleMesh& mesh :
+       {make_box(Vec3(1.0, 1.0, 1.0), 17), make_box(Vec3(1.0, 30.0, 2e-6), 17), turned_round}) {
+    const Surface surface = build_surface(mesh);
     const FlatRegions regions = FlatRegions::of(surface);
     const auto vertex = [&](std::int32_t v) { return surface.mesh.vertices[static_cast<std::size_t>(v)]; };
     for (std::size_t s = 0; s < regions.straight_edges.size(); ++s) {
