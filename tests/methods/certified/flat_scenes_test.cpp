@@ -456,7 +456,7 @@ TEST(FlatScenes, WorkDoesNotGrowWithTheTriangles) {
 }
 
 /// Of two gears in mesh a few teeth are near each other, however many their faces' outlines have:
-/// work may grow with the teeth, not with their square (where every border is asked, a hundredfold).
+/// work may grow with the teeth, not with their square (all borders asked: a hundredfold).
 TEST(FlatScenes, WorkGrowsAtMostWithTheTeethOfGears) {
   const auto leaf_pairs_of = [](int teeth) {
     const double radius = 0.5 * teeth;
