@@ -496,6 +496,20 @@ TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
   EXPECT_GE(behind.found(), 20u);
 }
 
+/// Open sheets face to face in one plane, beside and on each other: their borders have no walls that
+/// would be asked as well.
+TEST(FlatScenes, SheetsInOnePlaneMeetAlongTheirBorders) {
+  TriangleMesh sheet;
+  sheet.vertices = {{-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+  FlatComparison sheets(make_scene(sheet, sheet, 0.01));
+  const Eigen::Quaterniond over(0.0, 1.0, 0.0, 0.0);
+  for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.0})
+    for (const double y : {-1.0, 0.0, 0.5, 1.0})
+      for (const double gap : {0.0, 1e-15, 0.005}) sheets.check({Vec3(x, y, gap), over});
+  EXPECT_EQ(sheets.found(), 60u);
+}
+
 /// From rounding to beyond the tolerance: faces over faces, edge over face, edges along edges.
 TEST(FlatScenes, TiltsFromRoundingToBeyondTheTolerance) {
   std::mt19937_64 random(12);
