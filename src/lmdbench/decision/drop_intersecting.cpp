@@ -110,12 +110,16 @@ std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const
 }
 
 std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(const FeatureId& moving) const {
-  return std::ranges::equal_range(entries_, moving, {}, [](const Entry& e) { return e.features.first; });
+  const auto feature = [](const Entry& e) { return e.features.first; };
+  return {std::ranges::lower_bound(entries_, moving, {}, feature),
+          std::ranges::upper_bound(entries_, moving, {}, feature)};
 }
 
 std::span<const TouchingContacts::Entry> TouchingContacts::with(std::span<const Entry> entries,
                                                                 const FeatureId& fixed) {
-  return std::ranges::equal_range(entries, fixed, {}, [](const Entry& e) { return e.features.second; });
+  const auto feature = [](const Entry& e) { return e.features.second; };
+  return {std::ranges::lower_bound(entries, fixed, {}, feature),
+          std::ranges::upper_bound(entries, fixed, {}, feature)};
 }
 
 bool TouchingContacts::hold(const RestingRegions& resting) const {

@@ -175,9 +175,9 @@ TEST(FlatScenes, PartsAtRestHaveADirectionAndIntersectNothing) {
     FlatComparison pair(scene);
     for (int i = 0; i < 20; ++i) {
       // Borders that cross, then such as lie on each other.
-      const Pose pose =
-          i < 16 ? turned_on_top(random, 0.05)
-                 : Pose{Vec3(0.02 * (i % 2), 0.02 * (i / 18), 0.05), Eigen::Quaterniond::Identity()};
+      const Pose pose = i < 16 ? turned_on_top(random, 0.05)
+                               : Pose{Vec3(i % 2 == 0 ? 0.0 : 0.02, i < 18 ? 0.0 : 0.02, 0.05),
+                                      Eigen::Quaterniond::Identity()};
       pair.check(pose);
       LmdSet lmds = lmds_at(*make_method("certified", scene), pose);
       std::erase_if(lmds, [](const Lmd& lmd) { return lmd.distance > 1e-6; });  // beside, not below
@@ -496,8 +496,8 @@ TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
   EXPECT_GE(behind.found(), 20u);
 }
 
-/// Open sheets face to face in one plane, beside and on each other: their borders have no walls that
-/// would be asked as well.
+/// Open sheets face to face in one plane, beside and on each other: no walls at their borders would
+/// be asked as well.
 TEST(FlatScenes, SheetsInOnePlaneMeetAlongTheirBorders) {
   TriangleMesh sheet;
   sheet.vertices = {{-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0}};
