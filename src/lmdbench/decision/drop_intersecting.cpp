@@ -109,23 +109,19 @@ std::array<const TouchingContacts::Features*, 3> TouchingContacts::star_of(const
   return star;
 }
 
-std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(const FeatureId& moving) const {
-  const auto feature = [](const Entry& e) { return e.features.first; };
-  return {std::ranges::lower_bound(entries_, moving, {}, feature),
-          std::ranges::upper_bound(entries_, moving, {}, feature)};
-}
-
-std::span<const TouchingContacts::Entry> TouchingContacts::with(std::span<const Entry> entries,
-                                                                const FeatureId& fixed) {
-  const auto feature = [](const Entry& e) { return e.features.second; };
-  return {std::ranges::lower_bound(entries, fixed, {}, feature),
-          std::ranges::upper_bound(entries, fixed, {}, feature)};
+std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(std::span<const Entry> entries,
+                                                                      FeatureId FeaturePair::*side,
+                                                                      const FeatureId& feature) {
+  const auto of_side = [&](const Entry& e) { return e.features.*side; };
+  return {std::ranges::lower_bound(entries, feature, {}, of_side),
+          std::ranges::upper_bound(entries, feature, {}, of_side)};
 }
 
 bool TouchingContacts::hold(const RestingRegions& resting) const {
-  return std::ranges::any_of(
-      with(entries_of({FeatureKind::FACE, resting.moving}), {FeatureKind::FACE, resting.fixed}),
-      [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
+  const std::span<const Entry> of_moving =
+      entries_of(entries_, &FeaturePair::first, {FeatureKind::FACE, resting.moving});
+  return std::ranges::any_of(entries_of(of_moving, &FeaturePair::second, {FeatureKind::FACE, resting.fixed}),
+                             [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
 }
 
 bool TouchingContacts::for_each_at(const Intersection& crossing,
@@ -159,11 +155,11 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
   }
   for (const Features* features_moving : of_moving)
     for (const FeatureId& f : *features_moving) {
-      const std::span<const Entry> entries = entries_of(f);
+      const std::span<const Entry> entries = entries_of(entries_, &FeaturePair::first, f);
       if (entries.empty()) continue;  // Of most features.
       for (const Features* features_fixed : of_fixed)
         for (const FeatureId& g : *features_fixed)
-          for (const Entry& entry : with(entries, g))
+          for (const Entry& entry : entries_of(entries, &FeaturePair::second, g))
             if (!is_far(entry) && !visit(*entry.contact)) return false;
     }
   return true;

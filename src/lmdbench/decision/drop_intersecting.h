@@ -52,13 +52,15 @@ class TouchingContacts {
   bool empty() const { return entries_.empty(); }
 
  private:
+  using FeaturePair = std::pair<FeatureId, FeatureId>;  ///< Of the moving, the fixed mesh.
   struct Entry {
-    std::pair<FeatureId, FeatureId> features;  ///< Of the moving, the fixed mesh.
+    FeaturePair features;
     Eigen::AlignedBox3d box_W;
     const Contact* contact;
   };
-  std::span<const Entry> entries_of(const FeatureId& moving) const;
-  static std::span<const Entry> with(std::span<const Entry> of_moving, const FeatureId& fixed);
+  /// Of entries that are in order of a side's features, those with one of them.
+  static std::span<const Entry> entries_of(std::span<const Entry> entries, FeatureId FeaturePair::*side,
+                                           const FeatureId& feature);
   using Features = std::vector<FeatureId>;
   /// The features that have a corner at a vertex, faces first; filled as vertices are asked for.
   using FeaturesAt = std::unordered_map<std::int32_t, Features>;
