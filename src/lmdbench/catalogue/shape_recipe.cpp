@@ -71,7 +71,7 @@ class Recipe {
       sound = value[i].is_number();
       if (sound) xyzw[i] = value[i].get<double>();
     }
-    const Eigen::Quaterniond result(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    Eigen::Quaterniond result(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
     if (!sound || !(result.norm() > 0.5 && result.norm() < 2.0))
       fail(key, "is not a rotation", "write a unit quaternion [x, y, z, w]");
     return result;

@@ -65,7 +65,8 @@ void compare_json(const nlohmann::json& base, const nlohmann::json& candidate, c
                   std::vector<Difference>& differences) {
   if (base.is_object() && candidate.is_object()) {
     for (const auto& [key, value] : base.items())
-      if (candidate.contains(key)) compare_json(value, candidate[key], pointer + "/" + key, differences);
+      if (candidate.contains(key))
+        compare_json(value, candidate[key], fmt::format("{}/{}", pointer, key), differences);
     return;
   }
   if (base != candidate)
@@ -113,14 +114,16 @@ void compare_scene(const ResultReader& base, const ResultReader& candidate, cons
     if (name == "validity" || name == "mesh") continue;
     nlohmann::json a = attribute(base, group, name), b = attribute(candidate, group, name);
     if (!b.is_null() && a != b)
-      differences.push_back({"", group + ":" + name, std::nullopt, std::move(a), std::move(b), 0});
+      differences.push_back(
+          {"", fmt::format("{}:{}", group, name), std::nullopt, std::move(a), std::move(b), 0});
   }
   for (const std::string& mesh : base.groups(group)) {
     if (mesh == "objects") continue;  // names; their meshes have groups
-    if (candidate.has(group + "/" + mesh))
-      compare_scene(base, candidate, group + "/" + mesh, differences);
+    const std::string path = fmt::format("{}/{}", group, mesh);
+    if (candidate.has(path))
+      compare_scene(base, candidate, path, differences);
     else
-      differences.push_back({"", group + "/" + mesh, std::nullopt, "present", "absent", 0});
+      differences.push_back({"", path, std::nullopt, "present", "absent", 0});
   }
 }
 

@@ -85,13 +85,13 @@ std::string work_of_stage(const ResultReader& base, const ResultReader& candidat
   const auto found =
       std::find_if(stages().begin(), stages().end(), [&](const TimedStage& s) { return s.name == stage; });
   if (found == stages().end()) return {};
-  const std::string group = "/methods/" + method + "/" + std::string(found->counter_group);
+  const std::string group = fmt::format("/methods/{}/{}", method, found->counter_group);
   const std::vector<std::string> counters = base.datasets(group);
   if (counters.empty()) return "its work is not known: the results hold no counters";
   std::string moved;
   bool more = false;
   for (const std::string& counter : counters) {
-    const std::string path = group + "/" + counter;
+    const std::string path = fmt::format("{}/{}", group, counter);
     if (!candidate.has(path)) continue;
     const auto total = [&](const ResultReader& file) {
       const std::vector<std::int64_t> values = file.integers(path);

@@ -240,8 +240,7 @@ class Decision {
     if (error * tolerance_.coordinates <= tolerance_.known) return KnownDirection{u, error};
     const double tilt = tolerance_.largest_tilt;
     for (const double sine : {0.0, tilt})
-      if (const auto both =
-              common_direction(moving_, f_, fixed_, g_, u, error, {tolerance_.rounding, sine}, tilt))
+      if (auto both = common_direction(moving_, f_, fixed_, g_, u, error, {tolerance_.rounding, sine}, tilt))
         return both;
     if (error > LARGEST_SINGLE_ERROR) return std::nullopt;
     return KnownDirection{u, error};

@@ -62,14 +62,11 @@ class Tracer {
 
  private:
   Segment moving_edge(std::int32_t edge) const {
-    const auto& ends = moving_.adjacency.edges[static_cast<std::size_t>(edge)];
-    return {X_WM_.point(moving_.mesh.vertices[static_cast<std::size_t>(ends[0])]),
-            X_WM_.point(moving_.mesh.vertices[static_cast<std::size_t>(ends[1])])};
+    const auto [p, q] = moving_.mesh.segment(moving_.adjacency.edges[static_cast<std::size_t>(edge)]);
+    return {X_WM_.point(p), X_WM_.point(q)};
   }
   Segment fixed_edge(std::int32_t edge) const {
-    const auto& ends = fixed_.adjacency.edges[static_cast<std::size_t>(edge)];
-    return {fixed_.mesh.vertices[static_cast<std::size_t>(ends[0])],
-            fixed_.mesh.vertices[static_cast<std::size_t>(ends[1])]};
+    return fixed_.mesh.segment(fixed_.adjacency.edges[static_cast<std::size_t>(edge)]);
   }
   Vec3 point_of(const Piercing& at) const {
     return at.moving_edge

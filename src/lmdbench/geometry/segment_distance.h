@@ -10,9 +10,6 @@
 
 namespace lmdbench {
 
-/// From end 0 to end 1; a segment with equal ends is a point.
-using Segment = std::array<Vec3, 2>;
-
 /// The feature of a segment that carries a closest point.
 enum class SegmentFeature : std::uint8_t { V0, V1, EDGE };
 

@@ -18,6 +18,9 @@ using Mat3 = Eigen::Matrix3d;
 /// (collinear corners) or a point (equal corners).
 using Triangle = std::array<Vec3, 3>;
 
+/// From end 0 to end 1; a segment with equal ends is a point.
+using Segment = std::array<Vec3, 2>;
+
 /// Most difference from 1 of a unit vector's squared length: above that of a chain of rotations.
 inline constexpr double UNIT_TOLERANCE = 1e-6;
 

@@ -7,6 +7,7 @@
 #include <lmdbench/experiment/experiment.h>
 #endif
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace lmdbench::manual {
@@ -27,7 +28,7 @@ void append_places(const nlohmann::json& schema, const nlohmann::json& part, con
       for (const auto& choice : part[list]) append_places(schema, choice, pointer, places);
   if (!part.contains("properties")) return;
   for (const auto& [name, property] : part["properties"].items()) {
-    const std::string place = pointer + "/" + name;
+    const std::string place = fmt::format("{}/{}", pointer, name);
     if (name.starts_with("$")) continue;
     const std::size_t before = places.size();
     append_places(schema, property, place, places);

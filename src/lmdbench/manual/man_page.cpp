@@ -10,7 +10,7 @@
 namespace lmdbench::manual {
 namespace {
 
-std::string replaced(std::string text, char from, const std::string& to) {
+std::string replaced(const std::string& text, char from, const std::string& to) {
   std::string result;
   for (const char c : text) result += c == from ? to : std::string(1, c);
   return result;

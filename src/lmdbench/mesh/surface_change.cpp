@@ -72,6 +72,7 @@ const SurfaceChange& SurfaceMover::move(std::span<const Vec3> vertices, Surface&
   double squared_move = 0.0;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     // Bit by bit, so that the surface is the one that would be built.
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): 0.0 and -0.0 differ
     if (std::memcmp(&vertices[v], &mesh.vertices[v], sizeof(Vec3)) == 0) continue;
     squared_move = std::max(squared_move, (vertices[v] - mesh.vertices[v]).squaredNorm());
     mesh.vertices[v] = vertices[v];

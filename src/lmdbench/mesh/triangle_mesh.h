@@ -24,6 +24,10 @@ struct TriangleMesh {
     return {vertices[static_cast<std::size_t>(corners[0])], vertices[static_cast<std::size_t>(corners[1])],
             vertices[static_cast<std::size_t>(corners[2])]};
   }
+  /// Between two vertices.
+  Segment segment(const std::array<std::int32_t, 2>& ends) const {
+    return {vertices[static_cast<std::size_t>(ends[0])], vertices[static_cast<std::size_t>(ends[1])]};
+  }
 };
 
 /// Length of the axis-aligned bounding box's diagonal; 0 for a mesh without vertices.

@@ -38,6 +38,7 @@ template <typename Scalar>
 AxisFlow flow_in(const AxisMatrix& matrix_in_double, const std::array<AxisMatrix, ENERGY_FLOW_COUNT>& power,
                  double t) {
   LMDBENCH_EXPECTS(std::isfinite(t) && t >= 0.0, "a rate in place of a period");
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): a copy where Scalar is double
   const Square<Scalar> matrix = matrix_in_double.cast<Scalar>();
   const double norm = (matrix_in_double * t).cwiseAbs().rowwise().sum().maxCoeff();
   const int doublings = norm > LARGEST_SERIES_NORM ? std::ilogb(norm / LARGEST_SERIES_NORM) + 1 : 0;

@@ -166,7 +166,7 @@ class Child {
 
 class ChildCaller : public PluginCaller {
  public:
-  explicit ChildCaller(PluginTask task)
+  explicit ChildCaller(const PluginTask& task)
       : file_(task.file.string()),
         meshes_(shared_memory("lmdbench-meshes")),
         contacts_(shared_memory("lmdbench-contacts")) {

@@ -27,6 +27,8 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(modernize-use-using,readability-identifier-naming): C, with names of C */
+
 #define LMDBENCH_METHOD_ABI_MAJOR 1
 #define LMDBENCH_METHOD_ABI_MINOR 1 /* 1: LMDBENCH_PROMISE_FORCE_ONLY, LMDBENCH_EXTENSION_FORCE */
 
@@ -150,6 +152,8 @@ typedef struct lmdbench_method_entry_type {
 
 /* What a plugin exports. */
 extern LMDBENCH_METHOD_EXPORT const lmdbench_method_entry_type lmdbench_method_entry;
+
+/* NOLINTEND(modernize-use-using,readability-identifier-naming) */
 
 #ifdef __cplusplus
 }

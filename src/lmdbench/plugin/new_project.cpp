@@ -26,7 +26,7 @@ std::string new_plugin(const std::filesystem::path& folder, const std::string& l
     throw UsageError("", "--language", fmt::format("there is no project for \"{}\"", language),
                      fmt::format("take one of {}", fmt::join(plugin_languages(), ", ")));
   const fs::path whole = fs::absolute(folder).lexically_normal();
-  const std::string name =
+  std::string name =
       whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
   if (!std::regex_match(name, std::regex("[a-z][a-z0-9_-]{0,40}")))
     throw UsageError(folder.string(), "", "the folder's name becomes the method's, and cannot be one",

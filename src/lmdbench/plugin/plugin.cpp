@@ -27,10 +27,7 @@ using Json = nlohmann::json;
 
 std::array<double, 12> rows_of(const RigidTransform& X) {
   std::array<double, 12> rows{};
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) rows[static_cast<std::size_t>(4 * r + c)] = X.rotation(r, c);
-    rows[static_cast<std::size_t>(4 * r + 3)] = X.translation[r];
-  }
+  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(rows.data()) << X.rotation, X.translation;
   return rows;
 }
 

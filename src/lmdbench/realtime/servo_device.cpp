@@ -20,8 +20,7 @@ SimulatedServoDevice::SimulatedServoDevice(const LoopChoice& loop, const std::ve
       step_ns_(period / steps),
       steps_(steps),
       delay_ns_(loop.delay_frames * period),
-      mesh_(loop, 1e-9 * static_cast<double>(period / steps), path.front(), reference_M, loop.push_n,
-            Vec3::Zero()),
+      mesh_(loop, 1e-9 * static_cast<double>(step_ns_), path.front(), reference_M, loop.push_n, Vec3::Zero()),
       // Forces come at most once a period, unless a device calls faster.
       due_(4 * (static_cast<std::size_t>(loop.delay_frames) + 2)),
       pose_(mesh_.sensed_pose()) {}

@@ -82,9 +82,10 @@ class ResultReader::Implementation {
                          H5P_DEFAULT);
       name.pop_back();
       H5O_info_t object{};
-      static_cast<void>(has(group == "/" ? "/" + name : group + "/" + name));  // refuses links
+      const std::string path = fmt::format("{}/{}", group == "/" ? "" : group, name);
+      static_cast<void>(has(path));  // refuses links
       if (H5Oget_info_by_name2(handle.get(), name.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT) < 0)
-        fail(group + "/" + name, "cannot be read: " + last_hdf5_error());
+        fail(path, "cannot be read: " + last_hdf5_error());
       if (object.type == wanted) names.push_back(std::move(name));
     }
     std::sort(names.begin(), names.end());

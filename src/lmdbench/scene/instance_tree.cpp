@@ -59,10 +59,10 @@ constexpr double ORDER_ROUNDING = 1e-6;
 
 class InstanceTree::Tree {
  public:
-  explicit Tree(const std::vector<Entry>& entries) : entries_(entries.begin(), entries.end()) {}
+  explicit Tree(const std::vector<Entry>& entries) : boxes(entries.begin(), entries.end()) {}
   // Packing ignores how nodes split; only moves do not. (GCC 12 takes the R*-tree's insertion for a
   // write beyond its nodes.)
-  bg::index::rtree<Entry, bg::index::quadratic<8>, bg::index::indexable<Entry>, SameInstance> entries_;
+  bg::index::rtree<Entry, bg::index::quadratic<8>, bg::index::indexable<Entry>, SameInstance> boxes;
 };
 
 InstanceTree::InstanceTree(std::span<const Eigen::AlignedBox3d> boxes) {
@@ -79,14 +79,14 @@ InstanceTree& InstanceTree::operator=(InstanceTree&& other) noexcept = default;
 
 void InstanceTree::move(std::uint32_t instance, const Eigen::AlignedBox3d& from,
                         const Eigen::AlignedBox3d& to) {
-  tree_->entries_.remove(Entry(grown(from), instance));
-  tree_->entries_.insert(Entry(grown(to), instance));
+  tree_->boxes.remove(Entry(grown(from), instance));
+  tree_->boxes.insert(Entry(grown(to), instance));
 }
 
 void InstanceTree::touching(const Eigen::AlignedBox3d& box, std::vector<std::uint32_t>& instances) const {
   instances.clear();
   const FloatBox asked = grown(box);
-  tree_->entries_.query(
+  tree_->boxes.query(
       bg::index::intersects(asked),
       boost::make_function_output_iterator([&](const Entry& entry) { instances.push_back(entry.second); }));
   std::sort(instances.begin(), instances.end());
@@ -96,9 +96,9 @@ void InstanceTree::by_distance(const Eigen::Vector3d& point,
                                const std::function<bool(std::uint32_t instance, double bound)>& visit) const {
   const FloatPoint asked(static_cast<float>(point.x()), static_cast<float>(point.y()),
                          static_cast<float>(point.z()));
-  const auto all = static_cast<unsigned>(tree_->entries_.size());
+  const auto all = static_cast<unsigned>(tree_->boxes.size());
   if (all == 0) return;
-  for (auto found = tree_->entries_.qbegin(bg::index::nearest(asked, all)); found != tree_->entries_.qend();
+  for (auto found = tree_->boxes.qbegin(bg::index::nearest(asked, all)); found != tree_->boxes.qend();
        ++found) {
     const double distance = distance_of(asked, found->first);
     const double bound = distance - ORDER_ROUNDING * (distance + point.cwiseAbs().maxCoeff());
@@ -107,7 +107,7 @@ void InstanceTree::by_distance(const Eigen::Vector3d& point,
 }
 
 std::size_t InstanceTree::size() const {
-  return tree_->entries_.size();
+  return tree_->boxes.size();
 }
 
 }  // namespace lmdbench

@@ -246,22 +246,19 @@ FlatRegions FlatRegions::of(const Surface& surface) {
 std::int32_t FlatRegions::edge_at(const Surface& surface, std::int32_t straight, const Vec3& p_S) const {
   const auto edges = edges_of_straight[straight];
   if (edges.size() == 1) return edges.front();
-  const auto segment_of = [&](const std::array<std::int32_t, 2>& ends) {
-    return Segment{surface.mesh.vertices[static_cast<std::size_t>(ends[0])],
-                   surface.mesh.vertices[static_cast<std::size_t>(ends[1])]};
-  };
-  const auto segment_at = [&](std::int32_t e) {
-    return segment_of(surface.adjacency.edges[static_cast<std::size_t>(e)]);
-  };
-  const Segment whole = segment_of(straight_edges[static_cast<std::size_t>(straight)].ends);
+  const Segment whole = surface.mesh.segment(straight_edges[static_cast<std::size_t>(straight)].ends);
   const Vec3 p = point_segment_distance(p_S, whole).point, along = whole[1] - whole[0];
   // In order along the line, so of hundreds of edges two or three are compared.
   const double tolerance = NAMING_TOLERANCE * extent;
   const double place = along.dot(p), near = 2.0 * tolerance * along.norm();
+  const auto segment_at = [&](std::int32_t e) {
+    return surface.mesh.segment(surface.adjacency.edges[static_cast<std::size_t>(e)]);
+  };
+  const auto extent_of = [&](std::int32_t e) { return extent_along(segment_at(e), along); };
   std::int32_t first = -1;
   for (auto it = std::ranges::partition_point(
-           edges, [&](std::int32_t e) { return extent_along(segment_at(e), along).greatest < place - near; });
-       it != edges.end() && extent_along(segment_at(*it), along).least <= place + near; ++it) {
+           edges, [&](std::int32_t e) { return extent_of(e).greatest < place - near; });
+       it != edges.end() && extent_of(*it).least <= place + near; ++it) {
     const Vec3 nearest = point_segment_distance(p, segment_at(*it)).point;
     if ((nearest - p).norm() <= tolerance && (first < 0 || *it < first)) first = *it;
   }

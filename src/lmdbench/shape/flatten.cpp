@@ -241,7 +241,7 @@ OrderedMesh in_order_of_coordinates(const TriangleMesh& mesh) {
   }
   for (auto triangle : mesh.triangles) {
     for (std::int32_t& corner : triangle) corner = place[static_cast<std::size_t>(corner)];
-    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+    std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
     ordered.mesh.triangles.push_back(triangle);
   }
   std::ranges::sort(ordered.mesh.triangles);

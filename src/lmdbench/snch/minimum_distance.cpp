@@ -106,9 +106,9 @@ NearestPair NearestTracker::last_pair(const Pose& X_WM) const {
 }
 
 NearestPair NearestTracker::nearest(const Pose& X_WM) {
-  const NearestPair last = last_pair(X_WM);
+  NearestPair last = last_pair(X_WM);
   const double bound = last.triangle_moving < 0 ? std::numeric_limits<double>::infinity() : last.distance;
-  const NearestPair found = nearest_pair(moving_, moving_hierarchy_, fixed_, fixed_hierarchy_, X_WM, bound);
+  NearestPair found = nearest_pair(moving_, moving_hierarchy_, fixed_, fixed_hierarchy_, X_WM, bound);
   if (found.triangle_moving < 0) return last;  // nothing is nearer
   last_moving_ = found.triangle_moving;
   last_fixed_ = found.triangle_fixed;

@@ -21,7 +21,7 @@ ClearGap gap_to_plane(const Triangle& a, const Triangle& b, const Vec3& normal_b
 
 ClearGap gap_along_normals(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
                            double margin) {
-  const ClearGap over_b = gap_to_plane(a, b, normal_b);
+  ClearGap over_b = gap_to_plane(a, b, normal_b);
   if (over_b.gap > margin) return over_b;
   const ClearGap over_a = gap_to_plane(b, a, normal_a);
   return over_a.gap > margin ? ClearGap{over_a.gap, -over_a.axis} : ClearGap{};
@@ -29,7 +29,7 @@ ClearGap gap_along_normals(const Triangle& a, const Vec3& normal_a, const Triang
 
 ClearGap clear_gap(const Triangle& a, const Vec3& normal_a, const Triangle& b, const Vec3& normal_b,
                    double margin) {
-  if (const ClearGap gap = gap_along_normals(a, normal_a, b, normal_b, margin); gap.gap > margin) return gap;
+  if (ClearGap gap = gap_along_normals(a, normal_a, b, normal_b, margin); gap.gap > margin) return gap;
   // Everything from a's first corner: differences of nearby points, no large coordinates.
   const Vec3& origin = a[0];
   const std::array<Vec3, 2> corners_a{a[1] - origin, a[2] - origin};
