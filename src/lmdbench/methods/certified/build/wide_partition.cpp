@@ -21,7 +21,7 @@ namespace lmdbench {
 
 namespace {
 
-/// Bins of a selection from a set that tries no turns.
+/// Most bins of a selection.
 constexpr std::size_t BINS = 256;
 
 /// Sets up to this size try all turns: most node tests are of those. Larger ones take the first
@@ -53,27 +53,29 @@ struct Spread {
     Vec3f mean = Vec3f::Zero();
     for (const Place& place : places) mean += place.centre;
     mean /= static_cast<float>(places.size());
-    Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
+    // Six sums in registers; a matrix in memory waits for its last store at every place.
+    Vec3f squares = Vec3f::Zero(), products = Vec3f::Zero();
     for (const Place& place : places) {
-      const Vec3f from_mean = place.centre - mean;
-      covariance += from_mean * from_mean.transpose();
+      const Vec3f d = place.centre - mean;
+      squares += d.cwiseProduct(d);
+      products += d.cwiseProduct(Vec3f(d.y(), d.z(), d.x()));
     }
+    Eigen::Matrix3f covariance;
+    covariance << squares.x(), products.x(), products.z(),  //
+        products.x(), squares.y(), products.y(),            //
+        products.z(), products.y(), squares.z();
+    // Not computeDirect: its axes of a round set lie askew in the frame, and a search through gears
+    // tests a twentieth more nodes.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(covariance);
     widest = axes.eigenvectors().col(2);
     second = axes.eigenvectors().col(1);
   }
 };
 
-/// Where a place is along a direction; the item breaks ties.
+/// Where a place is along a direction.
 struct Key {
   float at;
-  std::uint32_t item;
   std::uint32_t place;  ///< Index in its set.
-
-  Key() = default;
-  Key(const Place& of, const Vec3f& along, std::uint32_t index = 0)
-      : at(along.dot(of.centre)), item(of.item), place(index) {}
-  bool operator<(const Key& other) const { return at != other.at ? at < other.at : item < other.item; }
 };
 
 /// Of places as one child: its tests grow with the squares of its radius and of its cone, which the
@@ -118,7 +120,12 @@ Place make_place(const Surface& surface, const ShapeComplex* shape, const Vec3& 
 
 class Partition {
  public:
-  explicit Partition(std::vector<Place>& places) : places_(places), spare_(places.size()) {}
+  explicit Partition(std::vector<Place>& places)
+      : places_(places),
+        spare_(places.size()),
+        keys_(places.size()),
+        halves_(places.size()),
+        bins_(places.size()) {}
 
   void run() { divide(places_); }
 
@@ -158,64 +165,69 @@ class Partition {
   /// Moves the least `count` places to the front, along the direction with the cheaper halves.
   void select(Places places, std::size_t count) {
     const Spread spread(places);
-    if (places.size() > LARGEST_TURNED) return select_by_bins(places, count, spread.widest);
-    const auto spare = spare_of(places);
-    std::array<Key, LARGEST_TURNED> keys;
-    const std::span own(keys.data(), places.size());
+    const Places chosen = range_of(spare_, places);
+    const std::size_t turns = places.size() > LARGEST_TURNED ? 1 : TURNS.size();
     std::optional<float> least;
-    for (const auto& [cosine, sine] : TURNS) {
+    for (const auto& [cosine, sine] : std::span(TURNS).first(turns)) {
       const Vec3f along = cosine * spread.widest + sine * spread.second;
-      for (std::uint32_t i = 0; i < own.size(); ++i) own[i] = Key(places[i], along, i);
-      std::nth_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count), own.end());
-      const float cost = cost_of(places, own.first(count)) + cost_of(places, own.subspan(count));
-      if (least && !(cost < *least)) continue;
-      least = cost;
-      for (std::size_t i = 0; i < own.size(); ++i) spare[i] = places[own[i].place];
+      const std::span<const Key> keys = halves_along(places, along, count);
+      if (turns > 1) {
+        const float cost = cost_of(places, keys.first(count)) + cost_of(places, keys.subspan(count));
+        if (least && !(cost < *least)) continue;
+        least = cost;
+      }
+      for (std::size_t i = 0; i < keys.size(); ++i) chosen[i] = places[keys[i].place];
     }
-    std::copy(spare.begin(), spare.end(), places.begin());
+    std::copy(chosen.begin(), chosen.end(), places.begin());
   }
 
-  /// As select_along, by one count and one move: the library's way mispredicts a branch a
-  /// comparison.
-  void select_by_bins(Places places, std::size_t count, const Vec3f& along) {
+  /// Keys of the least `count` places along the direction, and then of the others. By one count and
+  /// one move: the library's selection mispredicts a branch a comparison, and has one bin left here.
+  std::span<const Key> halves_along(Places places, const Vec3f& along, std::size_t count) {
+    const std::span keys = range_of(keys_, places), halves = range_of(halves_, places);
+    const std::span bins = range_of(bins_, places);
     float low = std::numeric_limits<float>::infinity(), high = -low;
-    for (const Place& place : places) {
-      const float at = along.dot(place.centre);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const float at = along.dot(places[i].centre);
+      keys[i] = {at, static_cast<std::uint32_t>(i)};
       low = std::min(low, at);
       high = std::max(high, at);
     }
-    const float bins_per_metre = static_cast<float>(BINS) / (high - low);
-    const auto bin_of = [&](const Place& place) {
-      // No number, or infinite, in a set without extent: the last bin.
-      const float bin = (along.dot(place.centre) - low) * bins_per_metre;
-      return bin < static_cast<float>(BINS - 1) ? static_cast<std::size_t>(bin) : BINS - 1;
-    };
+    const std::size_t last = std::min(BINS, keys.size()) - 1;
+    const float bins_per_metre = static_cast<float>(last + 1) / (high - low);
     std::array<std::uint32_t, BINS> sizes{};
-    for (const Place& place : places) ++sizes[bin_of(place)];
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      // Of a set without extent no number, or infinite: the last bin.
+      const float bin = std::min(static_cast<float>(last), (keys[i].at - low) * bins_per_metre);
+      bins[i] = static_cast<std::uint8_t>(bin);
+      ++sizes[bins[i]];
+    }
     std::size_t before = 0, bin = 0;
     while (before + sizes[bin] <= count) before += sizes[bin++];
 
-    const Places sorted = spare_of(places);
-    std::array<Place*, 3> next{sorted.data(), sorted.data() + before, sorted.data() + before + sizes[bin]};
-    for (const Place& place : places) {
-      const std::size_t own = bin_of(place);
-      *next[(own >= bin ? 1u : 0u) + (own > bin ? 1u : 0u)]++ = place;
-    }
-    std::copy(sorted.begin(), sorted.end(), places.begin());
-    select_along(places.subspan(before, sizes[bin]), count - before, along);
+    const std::span same = halves.subspan(before, sizes[bin]);
+    std::array<Key*, 3> next{halves.data(), same.data(), same.data() + same.size()};
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      *next[(bins[i] >= bin ? 1u : 0u) + (bins[i] > bin ? 1u : 0u)]++ = keys[i];
+    const auto least = [&](const Key& a, const Key& b) {
+      return a.at != b.at ? a.at < b.at : places[a.place].item < places[b.place].item;
+    };
+    std::nth_element(same.begin(), same.begin() + static_cast<std::ptrdiff_t>(count - before), same.end(),
+                     least);
+    return halves;
   }
 
-  static void select_along(Places places, std::size_t count, const Vec3f& along) {
-    std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
-                     [&along](const Place& a, const Place& b) { return Key(a, along) < Key(b, along); });
-  }
-
-  Places spare_of(Places places) {
-    return std::span(spare_).subspan(static_cast<std::size_t>(places.data() - places_.data()), places.size());
+  /// Of an array beside the places, what belongs to these.
+  template <class T>
+  std::span<T> range_of(std::vector<T>& array, Places places) const {
+    return std::span(array).subspan(static_cast<std::size_t>(places.data() - places_.data()), places.size());
   }
 
   std::vector<Place>& places_;
-  std::vector<Place> spare_;  ///< Each task uses the range of its places.
+  // Each task uses the ranges of its places.
+  std::vector<Place> spare_;
+  std::vector<Key> keys_, halves_;
+  std::vector<std::uint8_t> bins_;
 };
 
 }  // namespace
