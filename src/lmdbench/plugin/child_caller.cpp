@@ -263,8 +263,8 @@ void judge_reply(const PluginReply& reply, const lmdbench_contact* contacts, Plu
   if (!answer.too_many) answer.contacts = {contacts, reply.needed};
 }
 
-std::unique_ptr<PluginCaller> make_child_caller(PluginTask task) {
-  return std::make_unique<ChildCaller>(std::move(task));
+std::unique_ptr<PluginCaller> make_child_caller(const PluginTask& task) {
+  return std::make_unique<ChildCaller>(task);
 }
 
 std::string describe_plugin(const std::filesystem::path& file) {

@@ -51,8 +51,7 @@ class PluginMethod : public Method, public HasOwnWrench {
                     .b = of_pair.fixed.front().body,
                     .cutoff = of_pair.cutoff,
                     .options = of_plugin.dump()};
-    caller_ = trust == PluginTrust::TRUSTED ? make_direct_caller(std::move(task))
-                                            : make_child_caller(std::move(task));
+    caller_ = trust == PluginTrust::TRUSTED ? make_direct_caller(std::move(task)) : make_child_caller(task);
   }
 
   const MethodDescription& description() const override { return *description_; }

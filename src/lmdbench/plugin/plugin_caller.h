@@ -52,7 +52,7 @@ class PluginCaller {
 ///
 /// posix_spawn and not Boost.Process: a child forked from a program with threads could not use what
 /// these had locked (oneTBB of Embree); it sets limits, files and shared memory itself.
-std::unique_ptr<PluginCaller> make_child_caller(PluginTask task);
+std::unique_ptr<PluginCaller> make_child_caller(const PluginTask& task);
 
 /// In this process, for trusted plugins: it can crash the program. Short overruns are noticed.
 /// @throws InputError where the plugin cannot be loaded

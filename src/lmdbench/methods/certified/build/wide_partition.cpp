@@ -182,7 +182,7 @@ class Partition {
   }
 
   /// Keys of the least `count` places along the direction, and then of the others. By one count and
-  /// one move: the library's selection mispredicts a branch a comparison, and has one bin left here.
+  /// one move: the library's selection mispredicts a branch a comparison; here it has one bin left.
   std::span<const Key> halves_along(Places places, const Vec3f& along, std::size_t count) {
     const std::span keys = range_of(keys_, places), halves = range_of(halves_, places);
     const std::span bins = range_of(bins_, places);
