@@ -43,7 +43,7 @@ class Tracer {
     for (const std::int32_t edge : moving_.adjacency.triangle_edges[static_cast<std::size_t>(t_moving)])
       if (pierces(moving_edge(edge), PiercingBody::DISPLACED, b)) add({true, edge, t_fixed});
     for (const std::int32_t edge : fixed_.adjacency.triangle_edges[static_cast<std::size_t>(t_fixed)])
-      if (pierces(fixed_edge(edge), PiercingBody::RESTING, a)) add({false, edge, t_moving});
+      if (pierces(fixed_.edge(edge), PiercingBody::RESTING, a)) add({false, edge, t_moving});
     // Triangles that only touch have none, where ties are broken.
     if (count == 2) segments_.push_back(ends);
   }
@@ -62,16 +62,13 @@ class Tracer {
 
  private:
   Segment moving_edge(std::int32_t edge) const {
-    const auto [p, q] = moving_.mesh.segment(moving_.adjacency.edges[static_cast<std::size_t>(edge)]);
+    const auto [p, q] = moving_.edge(edge);
     return {X_WM_.point(p), X_WM_.point(q)};
-  }
-  Segment fixed_edge(std::int32_t edge) const {
-    return fixed_.mesh.segment(fixed_.adjacency.edges[static_cast<std::size_t>(edge)]);
   }
   Vec3 point_of(const Piercing& at) const {
     return at.moving_edge
                ? piercing_point(moving_edge(at.edge), fixed_.mesh.triangle(at.triangle))
-               : piercing_point(fixed_edge(at.edge), X_WM_.triangle(moving_.mesh.triangle(at.triangle)));
+               : piercing_point(fixed_.edge(at.edge), X_WM_.triangle(moving_.mesh.triangle(at.triangle)));
   }
   /// The segments that meet there.
   std::span<const SegmentEnd> meeting(const Piercing& at) const {

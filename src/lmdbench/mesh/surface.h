@@ -51,6 +51,10 @@ struct Surface {
   /// #V; its triangles are several fans (groups connected over edges there) that share only it.
   std::vector<bool> vertex_has_several_fans;
 
+  /// Between the ends of an edge, in the mesh's frame.
+  Segment edge(std::int32_t index) const {
+    return mesh.segment(adjacency.edges[static_cast<std::size_t>(index)]);
+  }
   /// Id of a triangle's feature.
   FeatureId feature_of(std::int32_t triangle, TriangleFeature part) const;
   /// Triangles of the feature: the face, those on the edge, those round the vertex (paper, Fig. 5).

@@ -198,10 +198,8 @@ std::vector<bool> find_what_adds_nothing(const Surface& surface, const FlatRegio
     return regions.region_of_triangle[static_cast<std::size_t>(t)] >= 0;
   };
   const auto length_of = [&](std::int32_t e) {
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(e)];
-    return (surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
-            surface.mesh.vertices[static_cast<std::size_t>(ends[0])])
-        .norm();
+    const auto [p, q] = surface.edge(e);
+    return (q - p).norm();
   };
   for (std::size_t t = 0; t < regions.region_of_triangle.size(); ++t) {
     if (regions.region_of_triangle[t] >= 0) continue;
@@ -251,15 +249,12 @@ std::int32_t FlatRegions::edge_at(const Surface& surface, std::int32_t straight,
   // In order along the line, so of hundreds of edges two or three are compared.
   const double tolerance = NAMING_TOLERANCE * extent;
   const double place = along.dot(p), near = 2.0 * tolerance * along.norm();
-  const auto segment_at = [&](std::int32_t e) {
-    return surface.mesh.segment(surface.adjacency.edges[static_cast<std::size_t>(e)]);
-  };
-  const auto extent_of = [&](std::int32_t e) { return extent_along(segment_at(e), along); };
+  const auto extent_of = [&](std::int32_t e) { return extent_along(surface.edge(e), along); };
   std::int32_t first = -1;
   for (auto it = std::ranges::partition_point(
            edges, [&](std::int32_t e) { return extent_of(e).greatest < place - near; });
        it != edges.end() && extent_of(*it).least <= place + near; ++it) {
-    const Vec3 nearest = point_segment_distance(p, segment_at(*it)).point;
+    const Vec3 nearest = point_segment_distance(p, surface.edge(*it)).point;
     if ((nearest - p).norm() <= tolerance && (first < 0 || *it < first)) first = *it;
   }
   return first >= 0 ? first : std::ranges::min(edges);
