@@ -128,12 +128,15 @@ def main():
             while time.monotonic() < until and process.poll() is None:
                 count, _ = measured(part)
                 seen = max(seen, count)
+                if count < 0:
+                    failures.append(f"kill {kill}: the part counts {count} frames")
                 time.sleep(min(POLL_SECONDS, max(0.0, until - time.monotonic())))
             sent = pick.choice(SIGNALS)
             by_signal[sent.name] = by_signal.get(sent.name, 0) + 1
             process.send_signal(sent)
             errors = process.communicate()[1]
-            if process.returncode == 0:  # it had finished: begin again
+            # It had finished, perhaps killed after its last act: begin again.
+            if process.returncode == 0 or (os.path.exists(out) and not os.path.exists(part)):
                 finished += 1
                 if os.path.exists(out):
                     failures += [f"kill {kill}: {name} differs in the finished result"
@@ -150,7 +153,7 @@ def main():
                 continue
             opened += 1
             largest_loss = max(largest_loss, seen - count)
-            if count < seen:
+            if count < seen or count < 0:
                 failures.append(f"kill {kill}: {seen - count} frames lost that were in the part before")
             failures += [f"kill {kill}: {problem}" for problem in check_part(part, whole)]
             if kill % arguments.complete_every == arguments.complete_every - 1:

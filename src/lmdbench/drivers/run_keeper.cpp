@@ -24,6 +24,15 @@ const DatasetInfo& frames_measured_info() {
   return info;
 }
 
+/// The count that stands in a part before its first frame.
+void write_no_frames(ResultWriter& image) {
+  image.write(frames_measured_info(), std::vector<std::int64_t>{0}, {1});
+}
+
+ReservedDataset frames_measured_of(const PartialResult& file) {
+  return file.dataset(FRAMES_MEASURED, ElementKind::INTEGER, {1}, 1);
+}
+
 std::vector<Column<Pose>> pose_columns() {
   return {column<Pose>("path/position", "m", "origin of the moving mesh's frame, world frame",
                        [](const Pose& pose) { return pose.translation; })};
@@ -75,8 +84,6 @@ void RunKeeper::Table<Row>::set(std::size_t row, const Row& values) {
 template <typename Visit>
 void RunKeeper::for_each_dataset(Visit&& visit) {
   const auto repetitions = static_cast<std::size_t>(repetitions_);
-  visit(frames_measured_, frames_measured_info(), ElementKind::INTEGER, std::vector<std::size_t>{1},
-        std::size_t{1});
   for (std::size_t i = 0; i < methods_.size(); ++i) {
     KeptMethod& kept = methods_[i];
     const std::string group = "/methods/" + labels_[i] + "/";
@@ -141,6 +148,8 @@ RunKeeper::RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t 
     write_head(image);
     image.attribute("/", "format", PART_FORMAT);
     image.attribute("/", "fingerprint", fingerprint);
+    // Not reserved, which would leave it unset until the first process has opened what it wrote.
+    write_no_frames(image);
     for_each_dataset([&](ReservedDataset&, const DatasetInfo& info, ElementKind kind,
                          const std::vector<std::size_t>& shape,
                          std::size_t) { image.reserve(info, kind, shape); });
@@ -150,6 +159,7 @@ RunKeeper::RunKeeper(PartFile& part, const Experiment& experiment, std::int64_t 
   for_each_dataset([&](ReservedDataset& dataset, const DatasetInfo& info, ElementKind kind,
                        const std::vector<std::size_t>& shape,
                        std::size_t width) { dataset = file_->dataset(info.path, kind, shape, width); });
+  frames_measured_ = frames_measured_of(*file_);
   file_->hold_open(false);
   for (KeptMethod& kept : methods_) {
     kept.known_frames.resize(static_cast<std::size_t>(repetitions_), 0);
@@ -169,7 +179,7 @@ void RunKeeper::prepare(PartFile& part) {
   if (measured_frames(part) > 0) return;
   ResultWriter image;
   image.attribute("/", "format", PART_FORMAT);
-  image.write(frames_measured_info(), std::vector<std::int64_t>{0}, {1});
+  write_no_frames(image);
   part.write(image.image());
 }
 
@@ -177,8 +187,7 @@ std::int64_t RunKeeper::measured_frames(PartFile& part) {
   const std::optional<PartialResult> file = PartialResult::open(part);
   if (!file) return 0;
   std::int64_t measured = 0;
-  file->dataset(FRAMES_MEASURED, ElementKind::INTEGER, {1}, 1)
-      .get(0, std::as_writable_bytes(std::span(&measured, 1)));
+  frames_measured_of(*file).get(0, std::as_writable_bytes(std::span(&measured, 1)));
   return measured;
 }
 
