@@ -81,31 +81,57 @@ TEST(JoinContacts, ABoxOnATableHasOneLmdHoweverBothAreCut) {
     }
 }
 
-TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
+void expect_any_order_gives_the_same(ShapeScene& scene, const Pose& pose) {
   std::mt19937_64 random(2);
-  ShapeScene scene(merged(box(2), translated(box(), Vec3(1.5, 0.0, 0.0))), square_table());
-  for (const Pose& pose : {moved(0.2, 0.1, 0.05), turned_by(1e-9, Vec3::UnitX(), Vec3(0.0, 0.3, 0.1)),
-                           turned_by(0.2, Vec3(1.0, 0.3, 0.1), Vec3(0.0, 0.0, 0.4))}) {
-    LmdSet expected = scene.lmds(pose);
-    std::ranges::sort(expected, lmd_less);
-    ASSERT_FALSE(expected.empty());
-    for (int i = 0; i < 10; ++i) {
-      const ShapePair pair = scene.at(pose);
-      ContactSet set = scene.contacts(pair);
-      // Contacts at a point may occur twice.
-      for (std::size_t k = set.contacts.size(); k-- > 0;)
-        if (set.contacts[k].dimension == 0 && random() % 2 == 0)
-          set.contacts.push_back(Contact(set.contacts[k]));
-      std::shuffle(set.contacts.begin(), set.contacts.end(), random);
-      LmdSet lmds = testing::joined(pair, set);
-      std::ranges::sort(lmds, lmd_less);
-      ASSERT_EQ(lmds.size(), expected.size()) << text(lmds) << "expected\n" << text(expected);
-      for (std::size_t k = 0; k < lmds.size(); ++k) {
-        EXPECT_TRUE(same_feature_pair(lmds[k], expected[k])) << text(lmds) << "expected\n" << text(expected);
-        EXPECT_NEAR((lmds[k].point_moving - expected[k].point_moving).norm(), 0.0, 1e-14);
-      }
+  LmdSet expected = scene.lmds(pose);
+  std::ranges::sort(expected, lmd_less);
+  ASSERT_FALSE(expected.empty());
+  for (int i = 0; i < 10; ++i) {
+    const ShapePair pair = scene.at(pose);
+    ContactSet set = scene.contacts(pair);
+    // Contacts at a point may occur twice.
+    for (std::size_t k = set.contacts.size(); k-- > 0;)
+      if (set.contacts[k].dimension == 0 && random() % 2 == 0)
+        set.contacts.push_back(Contact(set.contacts[k]));
+    std::shuffle(set.contacts.begin(), set.contacts.end(), random);
+    LmdSet lmds = testing::joined(pair, set);
+    std::ranges::sort(lmds, lmd_less);
+    ASSERT_EQ(lmds.size(), expected.size()) << text(lmds) << "expected\n" << text(expected);
+    for (std::size_t k = 0; k < lmds.size(); ++k) {
+      EXPECT_TRUE(same_feature_pair(lmds[k], expected[k])) << text(lmds) << "expected\n" << text(expected);
+      EXPECT_NEAR((lmds[k].point_moving - expected[k].point_moving).norm(), 0.0, 1e-14);
+      EXPECT_NEAR((lmds[k].direction - expected[k].direction).norm(), 0.0, 1e-14);
     }
   }
+}
+
+TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
+  ShapeScene scene(merged(box(2), translated(box(), Vec3(1.5, 0.0, 0.0))), square_table());
+  for (const Pose& pose : {moved(0.2, 0.1, 0.05), turned_by(1e-9, Vec3::UnitX(), Vec3(0.0, 0.3, 0.1)),
+                           turned_by(0.2, Vec3(1.0, 0.3, 0.1), Vec3(0.0, 0.0, 0.4))})
+    expect_any_order_gives_the_same(scene, pose);
+}
+
+/// An edge along an edge touches it in any of many directions: what it meets in two known ones
+/// stays two, whatever is asked first.
+TEST(JoinContacts, EdgesThatTouchAlongEachOtherLeaveTheFacesBesideThemApart) {
+  const auto beside = [](const Vec3& middle) { return translated(make_box({1.0, 1.0, 1.0}), middle); };
+  ShapeScene scene(beside(Vec3(-0.5, 0.5, 0.9)), beside(Vec3(0.5, -0.5, 0.0)));
+  for (const double angle : {0.05, 0.18, 0.4})
+    for (const double gap : {0.0, 2e-16, 1.8e-15}) {
+      SCOPED_TRACE(::testing::Message() << "angle " << angle << ", gap " << gap);
+      const Pose pose = turned_by(angle, Vec3::UnitZ(), Vec3(-gap, 0.0, 0.0));
+      const LmdSet lmds = scene.lmds(pose);
+      // The edge of one on the face of the other, and the other way round.
+      for (const Vec3& direction : {Vec3(1.0, 0.0, 0.0), Vec3(std::sin(angle), -std::cos(angle), 0.0)})
+        EXPECT_EQ(std::ranges::count_if(
+                      lmds, [&](const Lmd& lmd) { return (lmd.direction - direction).norm() < 1e-9; }),
+                  1)
+            << direction.transpose() << ":\n"
+            << text(lmds);
+      EXPECT_EQ(lmds.size(), 2u) << text(lmds);
+      expect_any_order_gives_the_same(scene, pose);
+    }
 }
 
 TEST(JoinContacts, EdgeOverEdgeIsOneLmdAndOnlyItsNameSwitches) {

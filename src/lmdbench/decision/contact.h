@@ -75,6 +75,9 @@ struct ShapeSide {
 /// What two features of the shapes share: a point of each or, where they are parallel, a segment or
 /// polygon of minimisers of the distance. World coordinates.
 struct Contact {
+  /// A larger error of the direction leaves it open between faces at an angle.
+  static constexpr double LARGEST_KNOWN_ERROR = 0.01;
+
   FeatureId moving, fixed;  ///< `index` counts regions, chains or vertices.
   int dimension = 0;        ///< 0: a pair of points, 1: of segments, 2: of polygons.
   double distance = 0.0;    ///< Of the points [m].
@@ -95,6 +98,8 @@ struct Contact {
   bool is_minimum = true;  ///< False for a critical pair that adds only an index (critical_index.h)
   int index = 0;           ///< Of critical pairs, where they are asked for.
   bool is_basin = false;   ///< Nothing round either feature is nearer where the index was taken.
+
+  bool knows_direction() const { return direction_error <= LARGEST_KNOWN_ERROR; }
 };
 
 /// The contacts of two meshes at a pose.

@@ -14,10 +14,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <memory_resource>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -30,7 +32,8 @@ namespace {
 constexpr std::size_t MOST_CARRIER_PAIRS = 256;
 /// Tolerances beside a face at which a point leaves a gap of more than two in a segment on it.
 constexpr double BESIDE = 8.0;
-/// Faces whose normals differ by more are of no one contact; far above largest_tilt, LARGEST_TURN.
+/// Faces whose normals differ by more are of no one contact, nor is what a contact of unknown
+/// direction alone brings together; far above largest_tilt, LARGEST_TURN.
 constexpr double LARGEST_ANGLE = 0.01;
 
 bool contact_less(const Contact& a, const Contact& b) {
@@ -114,6 +117,7 @@ class Joining {
     // Triangles that touch where no LMD was reported intersect after all.
     std::vector<Contact> reported;
     for (const std::size_t i : reported_) reported.push_back(contacts_[i]);
+    for (const auto& [known, member] : shared_) reported.push_back(contacts_[member]);
     TouchingContacts near(pair_, places_, reported);
     for (const RestingRegions& regions : held)
       if (!near.hold(regions)) at_rest.compare(regions, touching);
@@ -139,12 +143,9 @@ class Joining {
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
     sets_ = {ranks_.data(), parents_.data()};
     plane_of_.resize(contacts_.size());
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const Contact& contact = contacts_[i];
-      const bool has_plane =
-          contact.moving.kind == FeatureKind::FACE || contact.fixed.kind == FeatureKind::FACE;
-      plane_of_[i] = has_plane && contact.dimension > 0 ? i : NOT_KNOWN;
-    }
+    for (std::size_t i = 0; i < contacts_.size(); ++i) plane_of_[i] = has_plane(i) ? i : NOT_KNOWN;
+    touching_.clear();
+    shared_.clear();
     for (Carriers* carriers : {&carriers_moving_, &carriers_fixed_}) {
       carriers->items.clear();
       carriers->rows.assign(contacts_.size(), {NOT_KNOWN, 0});
@@ -250,7 +251,22 @@ class Joining {
 
   // --- joining
 
+  /// An edge along an edge that touches it has one distance and one direction with all that it
+  /// meets: what knows its direction is joined first, so the order of contacts does not matter.
   void join_ties() {
+    const auto knows = [&](std::size_t i) { return contacts_[i].knows_direction(); };
+    if (std::ranges::all_of(ties_, knows)) return join_pairs();
+    const std::pmr::vector<std::size_t> all = ties_;
+    std::erase_if(ties_, std::not_fn(knows));
+    join_pairs();
+    ties_ = all;
+    is_for_unknown_ = true;
+    join_pairs();
+    is_for_unknown_ = false;
+    join_through_unknown();
+  }
+
+  void join_pairs() {
     join_what_meets();
     const auto root_of = [&](std::size_t i) { return sets_.find_set(i); };
     if (std::ranges::adjacent_find(ties_, std::ranges::not_equal_to(), root_of) != ties_.end())
@@ -272,19 +288,87 @@ class Joining {
       if (contacts_[i].dimension > 0) is_extended_[sets_.find_set(i)] = true;
     }
     ties_ = all;
-    join_ties();
+    join_pairs();
+  }
+
+  /// Whether a pair is not joined, nor known to touch, and is tried now.
+  bool is_open(std::size_t i, std::size_t j) {
+    if (sets_.find_set(i) == sets_.find_set(j)) return false;
+    if (!is_for_unknown_) return true;
+    if (contacts_[i].knows_direction()) std::swap(i, j);
+    return !contacts_[i].knows_direction() &&
+           (!contacts_[j].knows_direction() || !touching_.contains({i, sets_.find_set(j)}));
+  }
+
+  bool has_plane(std::size_t i) const {
+    const Contact& contact = contacts_[i];
+    return contact.dimension > 0 &&
+           (contact.moving.kind == FeatureKind::FACE || contact.fixed.kind == FeatureKind::FACE);
+  }
+  bool are_at_an_angle(std::size_t i, std::size_t j) const {
+    return (contacts_[i].direction - contacts_[j].direction).norm() > LARGEST_ANGLE;
+  }
+
+  /// Contacts of unknown direction make one of the sets that they touch, but of those at an angle:
+  /// they give their points to each of these.
+  void join_through_unknown() {
+    // Which set is represented by what must not depend on what was joined before.
+    const std::pmr::vector<std::size_t> best = best_known();
+    const auto are_apart = [&](std::size_t a, std::size_t b) {
+      const std::size_t i = best[a], j = best[b];
+      return are_at_an_angle(i, j) &&
+             ((has_plane(i) && has_plane(j)) || !places_.have_one_direction(contacts_[i], contacts_[j]));
+    };
+    std::pmr::vector<std::pair<std::size_t, std::size_t>> touching(&memory_), members(&memory_);
+    for (const auto& [unknown, known] : touching_) touching.emplace_back(sets_.find_set(unknown), known);
+    std::ranges::sort(touching);
+    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    for (const std::size_t i : ties_)
+      if (!contacts_[i].knows_direction()) members.emplace_back(sets_.find_set(i), i);
+    for (std::size_t i = 0; i < touching.size(); ++i)
+      for (std::size_t j = i + 1; j < touching.size() && touching[j].first == touching[i].first; ++j)
+        if (!are_apart(touching[i].second, touching[j].second))
+          sets_.union_set(touching[i].second, touching[j].second);
+    for (std::size_t begin = 0; begin < touching.size();) {
+      std::size_t end = begin;
+      bool is_one = true;
+      const std::size_t of_unknown = touching[begin].first;
+      for (; end < touching.size() && touching[end].first == of_unknown; ++end)
+        is_one = is_one && sets_.find_set(touching[end].second) == sets_.find_set(touching[begin].second);
+      if (is_one)
+        sets_.union_set(of_unknown, touching[begin].second);
+      else
+        for (; begin < end; ++begin)
+          for (const auto& [set, member] : members)
+            if (set == of_unknown) shared_.emplace_back(touching[begin].second, member);
+      begin = end;
+    }
+  }
+
+  /// Of each root of contacts of known direction: a plane's if there is one, then the one that
+  /// knows it best.
+  std::pmr::vector<std::size_t> best_known() {
+    std::pmr::vector<std::size_t> best(contacts_.size(), NOT_KNOWN, &memory_);
+    const auto rank = [&](std::size_t i) { return std::pair(!has_plane(i), contacts_[i].direction_error); };
+    for (const std::size_t i : ties_) {
+      std::size_t& own = best[sets_.find_set(i)];
+      if (contacts_[i].knows_direction() && (own == NOT_KNOWN || rank(i) < rank(own))) own = i;
+    }
+    return best;
   }
 
   void join(std::size_t i, std::size_t j) {
     LMDBENCH_EXPECTS(std::abs(contacts_[i].distance - contacts_[j].distance) <=
                          tolerance_.widest_tie(std::max(contacts_[i].distance, contacts_[j].distance)),
                      "contacts at unlike distances: no tolerance grows as a distance shrinks");
-    const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
-    // A contact of unknown direction may meet faces at an angle: it joins one of them, not both.
-    const std::size_t of_a = plane_of_[a], of_b = plane_of_[b];
-    if (of_a != NOT_KNOWN && of_b != NOT_KNOWN &&
-        (contacts_[of_a].direction - contacts_[of_b].direction).norm() > LARGEST_ANGLE)
+    if (is_for_unknown_ && contacts_[i].knows_direction() != contacts_[j].knows_direction()) {
+      if (contacts_[i].knows_direction()) std::swap(i, j);
+      touching_.emplace(i, sets_.find_set(j));
       return;
+    }
+    const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
+    const std::size_t of_a = plane_of_[a], of_b = plane_of_[b];
+    if (of_a != NOT_KNOWN && of_b != NOT_KNOWN && are_at_an_angle(of_a, of_b)) return;
     link(a, b);
     if (sets_.find_set(a) == sets_.find_set(b))
       plane_of_[sets_.find_set(a)] = of_a != NOT_KNOWN ? of_a : of_b;
@@ -319,7 +403,7 @@ class Joining {
       const Contact& a = contacts_[i];
       std::erase_if(open, [&](const Entry& o) { return o.box.max().x() < entry.box.min().x(); });
       for (const Entry& o : open) {
-        if (!o.box.intersects(entry.box) || sets_.find_set(i) == sets_.find_set(o.contact)) continue;
+        if (!o.box.intersects(entry.box) || !is_open(o.contact, i)) continue;
         const Contact& b = contacts_[o.contact];
         if (std::abs(a.distance - b.distance) <= places_.granted(a, b) && are_one_place(o.contact, i))
           join(o.contact, i);
@@ -341,6 +425,9 @@ class Joining {
   /// Joins points and segments that are apart, with an equal distance all the way between them:
   /// next to touch both ends of a chain over another one may seem to be minima.
   void join_over_level_ways() {
+    // What lies on which part of an overlap must not depend on the ways found before.
+    met_.resize(contacts_.size());
+    for (const std::size_t i : ties_) met_[i] = sets_.find_set(i);
     std::pmr::vector<OnCarriers> entries(&memory_), parts(&memory_);
     for (const std::size_t i : ties_) {
       if (contacts_[i].dimension == 2) {
@@ -381,19 +468,19 @@ class Joining {
   /// Those of different parts of two regions' overlap are apart.
   /// @param parts  polygons of that pair
   void join_in_bucket(std::span<const OnCarriers> bucket, std::span<const OnCarriers> parts) {
-    std::pmr::vector<std::size_t> roots(&memory_), roots_of_parts(&memory_);
+    std::pmr::vector<std::size_t> roots(&memory_), met_parts(&memory_);
     roots.reserve(bucket.size());
     for (const OnCarriers& entry : bucket) roots.push_back(sets_.find_set(entry.contact));
     if (std::ranges::count(roots, roots.front()) == std::ssize(roots)) return;
-    for (const OnCarriers& part : parts) roots_of_parts.push_back(sets_.find_set(part.contact));
-    std::ranges::sort(roots_of_parts);
+    for (const OnCarriers& part : parts) met_parts.push_back(met_[part.contact]);
+    std::ranges::sort(met_parts);
     std::vector<bool> is_of_part;
-    for (const std::size_t root : roots)
-      is_of_part.push_back(std::ranges::binary_search(roots_of_parts, root));
+    for (const OnCarriers& entry : bucket)
+      is_of_part.push_back(std::ranges::binary_search(met_parts, met_[entry.contact]));
     if (std::ranges::find(is_of_part, false) == is_of_part.end()) return;
     const auto try_way = [&](std::size_t k, std::size_t m) {
       const std::size_t i = bucket[k].contact, j = bucket[m].contact;
-      if (sets_.find_set(i) == sets_.find_set(j) || (is_of_part[k] && is_of_part[m])) return;
+      if (!is_open(i, j) || (is_of_part[k] && is_of_part[m])) return;
       if (is_level_way(bucket.front(), contacts_[i], contacts_[j])) join(i, j);
     };
     if (const auto order = order_along_line(bucket); !order.empty()) {
@@ -521,6 +608,11 @@ class Joining {
       minima.push_back(&contacts_[i]);
       has_points = has_points || contacts_[i].dimension == 0 || contacts_[i].covers_point;
     }
+    for (const auto& [known, member] : shared_) {
+      if (sets_.find_set(member) == sets_.find_set(set.front())) return;  // They are of those.
+      if (sets_.find_set(known) == sets_.find_set(set.front()))
+        has_points = has_points || contacts_[member].dimension == 0;
+    }
     if (has_points) {
       const Representative whole = represent_contacts(pair_, places_, minima);
       report(whole.contact(), *whole.namesake, set, true);
@@ -569,6 +661,13 @@ class Joining {
   std::pmr::vector<std::size_t> ties_{&memory_}, ranks_{&memory_}, parents_{&memory_};
   /// Of the roots: an extended contact whose direction is a plane's, or NOT_KNOWN.
   std::pmr::vector<std::size_t> plane_of_{&memory_};
+  /// Roots before ways between places that are apart.
+  std::pmr::vector<std::size_t> met_{&memory_};
+  bool is_for_unknown_ = false;  ///< Pairs of two contacts of known direction were tried.
+  /// Contacts of unknown direction and roots of known ones that they are one with.
+  std::pmr::set<std::pair<std::size_t, std::size_t>> touching_{&memory_};
+  /// Of sets at an angle a contact each, and contacts of unknown direction that touch them.
+  std::pmr::vector<std::pair<std::size_t, std::size_t>> shared_{&memory_};
   std::pmr::vector<std::size_t> reported_{&memory_};  ///< Of LMDs no farther than the tolerance.
   boost::disjoint_sets<std::size_t*, std::size_t*> sets_{nullptr, nullptr};
   Carriers carriers_moving_{{}, Rows(&memory_)}, carriers_fixed_{{}, Rows(&memory_)};

@@ -21,7 +21,8 @@ namespace lmdbench {
 /// - Contacts are one LMD where a way leads from one to the other along which the distance stays
 ///   the same up to `ContactPlaces::granted`: they lie on one closed pair of features and the
 ///   segments between their points stay on it (J1), or both are extended, have one direction, share
-///   a lower pair of features and meet there (J2).
+///   a lower pair of features and meet there (J2). Contacts of unknown direction bring no others
+///   together that are at an angle.
 /// - Extended contacts without a pair of points are no minimum (rule S): they lead down somewhere.
 /// - Contacts higher than the tolerance over the lowest of their LMD are dropped (rule K).
 /// - Its representative: see represent_contacts.h.

@@ -173,6 +173,12 @@ Representative represent_contacts(const ShapePair& pair, ContactPlaces& places,
   if (dimension == 1) result.middle = middle_of_segments(pair, pieces);
   result.namesake = result.middle ? nearest_to(pair, places, *result.middle, pieces)
                                   : nearest_contact(pair, places, points.empty() ? pieces : points);
+  // Edges along each other touch in a direction that only a face beside them knows.
+  const Contact& best = **std::ranges::min_element(contacts, {}, &Contact::direction_error);
+  if (!result.contact().knows_direction() && best.knows_direction()) {
+    result.middle = result.contact();
+    result.middle->direction = best.direction;
+  }
   return result;
 }
 

@@ -16,7 +16,8 @@ using ContactPointers = std::pmr::vector<const Contact*>;
 
 /// The contact that represents an LMD.
 struct Representative {
-  std::optional<Contact> middle;      ///< Centroid of polygons or segments; else none.
+  /// Centroid of polygons or segments, or a point whose direction another one knows; else none.
+  std::optional<Contact> middle;
   const Contact* namesake = nullptr;  ///< Its features name the LMD.
 
   const Contact& contact() const { return middle ? *middle : *namesake; }

@@ -147,6 +147,18 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
   expect_right({"half pipe on rack", Coordinates::RECUT, 501, 30},
                {Vec3(-0.15437808873808648, -1.0000000000009441, 0.65403422037168435),
                 Eigen::Quaterniond(3.5759655836946568e-11, -0, -0, -1)});
+  // Edges that touch along each other, or at a corner, in no known direction, beside faces in known
+  // ones.
+  expect_right({"T-nut on keyway", Coordinates::RECUT, 20261126, 18},
+               {Vec3(-0.78280882742895452, 0.70291365721535548, 0.24213196173202808),
+                Eigen::Quaterniond(-0.089330328042982035, 0, 0, 0.99600205446160262)});
+  expect_right({"ring on ring", Coordinates::RECUT, 20261126, 10},
+               {Vec3(-1.5387122782630915e-15, -0.1875, 0.5625), Eigen::Quaterniond(1, 0, 0, 0)});
+  // A side over a side leads from one polygon to another one, whichever pair of faces comes first.
+  expect_right({"cage on cage", Coordinates::RECUT, 20261126, 29},
+               {Vec3(0.74999999859591504, -0.67072076143557902, 1.0368798095673433),
+                Eigen::Quaterniond(-0.70710678118654746, 2.236773357626369e-11, 1.4618844098833199e-11,
+                                   0.70710678118654757)});
   // Rounded, and nearer than the planar tolerance.
   expect_right({"star prism on polycube", Coordinates::ROUNDED, 1, 9},
                {Vec3(-0.074400323817917446, 0.92235974455194869, 1.4108620553268474),
@@ -154,7 +166,23 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
                                    0.81730489292573394)});
 }
 
-/// Share of poses where the cut may show: overlaps as narrow as the tolerance move by 1e-8.
+TEST(PartsStudy, TellsPosesAtABorderOfTheTolerance) {
+  const parts::PartsScene scene =
+      parts::make_parts_scene({"block on block", Coordinates::EXACT, 1, 0, PoseFamily::ANY});
+  const auto method = make_method("exhaustive", scene.scene);
+  // 0.5 wide and 0.25 high: beside each other by the width, sides are over sides.
+  const auto at_border = [&](double beside) {
+    return is_at_a_border(*method, {Vec3(beside, 0.1, 0.26), Eigen::Quaterniond::Identity()}, scene.diagonal);
+  };
+  EXPECT_FALSE(at_border(0.2));
+  EXPECT_FALSE(at_border(0.4));
+  EXPECT_FALSE(at_border(0.7)) << "no LMD";
+  // A turn about z moves the middle of so narrow an overlap along it, a move makes it an edge's.
+  EXPECT_TRUE(at_border(0.5 - 1e-6));
+  EXPECT_TRUE(at_border(0.5));
+}
+
+/// Share of poses where the cut may show: where a move as small as the tolerance changes the set.
 constexpr double MOST_THAT_SHOW_CUT = 0.002;
 
 /// LMDBENCH_PARTS_POSES poses of each kind in each kind of coordinates; unset: one scene a kind.
@@ -165,7 +193,7 @@ TEST(PartsStudy, FindsNothingWrong) {
   study.seed = 4;
   std::string complaints;
   std::size_t lmds = 0, kind_number = 0;
-  std::array<std::size_t, std::size(parts::ALL_COORDINATES)> poses{}, wrong{}, show_cut{};
+  std::array<std::size_t, std::size(parts::ALL_COORDINATES)> poses{}, wrong{}, show_cut{}, at_border{};
   for (const PartsKind& kind : parts::parts_kinds()) {
     for (std::size_t c = 0; c < poses.size(); ++c) {
       if (wanted == nullptr && kind_number % poses.size() != c) continue;
@@ -175,12 +203,14 @@ TEST(PartsStudy, FindsNothingWrong) {
       poses[c] += result.poses;
       wrong[c] += result.wrong_poses;
       show_cut[c] += result.poses_that_show_cut;
+      at_border[c] += result.of_these_at_a_border;
     }
     ++kind_number;
   }
   for (std::size_t c = 0; c < poses.size(); ++c) {
     SCOPED_TRACE(name_of(parts::ALL_COORDINATES[c]) + (":\n" + complaints));
     EXPECT_EQ(wrong[c], 0u);
+    EXPECT_EQ(show_cut[c], at_border[c]);
     EXPECT_LE(static_cast<double>(show_cut[c]), MOST_THAT_SHOW_CUT * static_cast<double>(poses[c]));
   }
   EXPECT_GT(lmds, 2 * parts::POSES_A_SCENE * parts::parts_kinds().size());
