@@ -11,6 +11,9 @@
 namespace lmdbench::completeness {
 namespace {
 
+/// Of the scale; the tolerance of the definition.
+constexpr double SAME = 1e-9;
+
 std::string upper_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -30,7 +33,6 @@ std::string contacts_text(const LmdSet& lmds) {
 }  // namespace
 
 bool same_contacts(const LmdSet& a, const LmdSet& b, double scale) {
-  constexpr double SAME = 1e-9;
   const auto intersects = [](const Lmd& lmd) { return lmd.intersecting; };
   if (std::any_of(a.begin(), a.end(), intersects) || std::any_of(b.begin(), b.end(), intersects)) return true;
   LmdSet left = b;
@@ -48,6 +50,22 @@ bool same_contacts(const LmdSet& a, const LmdSet& b, double scale) {
   return left.empty();
 }
 
+bool is_at_a_border(Method& exhaustive, const Pose& X_WM, double scale) {
+  const LmdSet set = lmds_at(exhaustive, X_WM);
+  const auto changes = [&](const Vec3& translation, const Vec3& turn) {
+    Pose moved = X_WM;
+    moved.translation += translation;
+    moved.rotation = Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()) * moved.rotation;
+    return !same_contacts(set, lmds_at(exhaustive, moved), 2.0 * scale);
+  };
+  for (const double by : {-SAME, SAME})
+    for (int axis = 0; axis < 3; ++axis)
+      if (changes(by * scale * Vec3::Unit(axis), Vec3::Zero()) ||
+          changes(Vec3::Zero(), by * Vec3::Unit(axis)))
+        return true;
+  return false;
+}
+
 std::string test_line(const parts::PartsChoice& choice, const Pose& X_WM) {
   const Vec3& p = X_WM.translation;
   const Eigen::Quaterniond& q = X_WM.rotation;
@@ -61,7 +79,7 @@ std::string test_line(const parts::PartsChoice& choice, const Pose& X_WM) {
 
 PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts::Coordinates coordinates,
                         const Complain& complain) {
-  PartsResult result{kind, coordinates, 0, 0, 0, std::vector<Judgement>(variants().size()), 0};
+  PartsResult result{kind, coordinates, 0, 0, 0, std::vector<Judgement>(variants().size()), 0, 0};
   for (std::size_t index = 0; index * parts::POSES_A_SCENE < study.poses; ++index) {
     parts::PartsChoice choice{kind, coordinates, study.seed, index, study.family};
     const parts::PartsScene scene = make_parts_scene(choice);
@@ -94,9 +112,12 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
       if (!uncut) continue;
       const LmdSet truth_of_uncut = lmds_at(*of_uncut, pose);
       if (same_contacts(truth, truth_of_uncut, scene.diagonal)) continue;
+      const bool at_border = is_at_a_border(*of_uncut, pose, scene.diagonal);
       ++result.poses_that_show_cut;
-      complain(fmt::format("{}  // the cut shows; exact:\n{}recut:\n{}", test_line(choice, pose),
-                           contacts_text(truth_of_uncut), contacts_text(truth)));
+      result.of_these_at_a_border += at_border;
+      complain(fmt::format("{}  // the cut shows{}; exact:\n{}recut:\n{}", test_line(choice, pose),
+                           at_border ? " at a border" : "", contacts_text(truth_of_uncut),
+                           contacts_text(truth)));
     }
   }
   return result;

@@ -26,15 +26,22 @@ struct PartsResult {
   std::string kind;
   parts::Coordinates coordinates = parts::Coordinates::EXACT;
   std::size_t poses = 0, true_lmds = 0;
-  std::size_t wrong_poses = 0;          ///< Poses at which some variant is wrong.
-  std::vector<Judgement> judgements;    ///< In the order of `variants()`.
-  std::size_t poses_that_show_cut = 0;  ///< Only RECUT: `exhaustive` differs from EXACT.
+  std::size_t wrong_poses = 0;           ///< Poses at which some variant is wrong.
+  std::vector<Judgement> judgements;     ///< In the order of `variants()`.
+  std::size_t poses_that_show_cut = 0;   ///< Only RECUT: `exhaustive` differs from EXACT.
+  std::size_t of_these_at_a_border = 0;  ///< See `is_at_a_border`.
 };
 
 /// Whether two sets have the same contacts: the same kinds of features, distances and places in any
 /// order. Always true with intersecting triangles: the cut decides what their intersection consists
 /// of, and whether a neighbour just clear of it belongs to it.
 bool same_contacts(const LmdSet& a, const LmdSet& b, double scale);
+
+/// Whether the set at a pose is another one (by twice the places of `same_contacts`) after one of
+/// twelve moves and turns as small as the tolerance of the definition, along and about each axis:
+/// it hangs on what is as narrow, as level or as far as the tolerance, which rounding may decide.
+/// @param scale  the parts' extent [m]; a turn moves no point by more than the tolerance of it
+bool is_at_a_border(Method& exhaustive, const Pose& X_WM, double scale);
 
 /// @param complain receives each wrong pose as a line for a test (`expect_right`), and the errors
 PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts::Coordinates coordinates,
