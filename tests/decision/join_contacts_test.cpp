@@ -171,23 +171,39 @@ TEST(JoinContacts, OfSegmentsOfOneLengthRoundingDoesNotChoose) {
   }
 }
 
-/// The same with only some of the contacts: what is unknown gives its points, and takes a direction.
+/// From rounding on edges past each other are one LMD, in the direction of their gap.
+TEST(JoinContacts, EdgesPastEachOtherAreOneLmdInTheDirectionOfTheirGap) {
+  const auto beside = [](const Vec3& middle) { return translated(make_box({1.0, 1.0, 1.0}), middle); };
+  ShapeScene scene(beside(Vec3(-0.5, 0.5, 0.9)), beside(Vec3(0.5, -0.5, 0.0)));
+  const double yaw = 0.18;
+  for (const double share : {0.1, 0.5, 0.9})
+    for (const double gap : {2.5e-13, 8e-13, 3e-12, 1e-9, 1e-5}) {
+      SCOPED_TRACE(::testing::Message() << "share " << share << ", gap " << gap);
+      const double angle = share * (yaw - 0.5 * std::numbers::pi);
+      const Vec3 direction(std::cos(angle), std::sin(angle), 0.0);
+      const Lmd lmd = only(scene, turned_by(yaw, Vec3::UnitZ(), -gap * direction));
+      EXPECT_NEAR((lmd.direction - direction).norm(), 0.0, 1e-15 / gap);
+    }
+}
+
+/// The same with some of the contacts: what is unknown gives its points, and takes a direction.
 TEST(JoinContacts, WhatTouchesInNoKnownDirectionHasThoseOfWhatItMeets) {
   const auto beside = [](const Vec3& middle) { return translated(make_box({1.0, 1.0, 1.0}), middle); };
   ShapeScene scene(beside(Vec3(-0.5, 0.5, 0.9)), beside(Vec3(0.5, -0.5, 0.0)));
   const double angle = 0.18;
   const Pose pose = turned_by(angle, Vec3::UnitZ(), Vec3(-1.8e-15, 0.0, 0.0));
   const ShapePair pair = scene.at(pose);
+  const auto knows = [&](const Contact& c) { return c.knows_direction(pair.tolerance.rounding); };
   const Vec3 of_moving(std::sin(angle), -std::cos(angle), 0.0);
   const auto joined_without = [&](auto&& leaves_out) {
     ContactSet set = scene.contacts(pair);
     EXPECT_GT(std::erase_if(set.contacts, leaves_out), 0u);
     return testing::joined(pair, set);
   };
-  const LmdSet two = joined_without([](const Contact& c) { return c.dimension == 0 && c.knows_direction(); });
+  const LmdSet two = joined_without([&](const Contact& c) { return c.dimension == 0 && knows(c); });
   EXPECT_EQ(two.size(), 2u) << text(two);
-  const LmdSet one = joined_without(
-      [&](const Contact& c) { return c.knows_direction() && (c.direction - of_moving).norm() > 1e-9; });
+  const LmdSet one =
+      joined_without([&](const Contact& c) { return knows(c) && (c.direction - of_moving).norm() > 1e-9; });
   ASSERT_EQ(one.size(), 1u) << text(one);
   EXPECT_NEAR((one[0].direction - of_moving).norm(), 0.0, 1e-9) << text(one);
 }

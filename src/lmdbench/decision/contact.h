@@ -75,8 +75,9 @@ struct ShapeSide {
 /// What two features of the shapes share: a point of each or, where they are parallel, a segment or
 /// polygon of minimisers of the distance. World coordinates.
 struct Contact {
-  /// A larger error of the direction leaves it open between faces at an angle.
-  static constexpr double LARGEST_KNOWN_ERROR = 0.01;
+  /// A larger error of the direction leaves it open between faces at an angle, and a distance up to
+  /// this share of rounding says nothing. Farther apart, the faces' distances would be wrong by it.
+  static constexpr double LARGEST_KNOWN_ERROR = 0.01, TOUCHING_SHARE = 0.125;
 
   FeatureId moving, fixed;  ///< `index` counts regions, chains or vertices.
   int dimension = 0;        ///< 0: a pair of points, 1: of segments, 2: of polygons.
@@ -99,7 +100,10 @@ struct Contact {
   int index = 0;           ///< Of critical pairs, where they are asked for.
   bool is_basin = false;   ///< Nothing round either feature is nearer where the index was taken.
 
-  bool knows_direction() const { return direction_error <= LARGEST_KNOWN_ERROR; }
+  /// Not where edges along each other or corners touch.
+  bool knows_direction(double rounding) const {
+    return direction_error <= LARGEST_KNOWN_ERROR || distance > TOUCHING_SHARE * rounding;
+  }
 };
 
 /// The contacts of two meshes at a pose.

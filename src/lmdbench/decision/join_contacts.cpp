@@ -254,7 +254,7 @@ class Joining {
   /// An edge along an edge that touches it has one distance and one direction with all that it
   /// meets: what knows its direction is joined first, so the order of contacts does not matter.
   void join_ties() {
-    const auto knows = [&](std::size_t i) { return contacts_[i].knows_direction(); };
+    const auto knows = [&](std::size_t i) { return knows_direction(i); };
     if (std::ranges::all_of(ties_, knows)) return join_pairs();
     const std::pmr::vector<std::size_t> all = ties_;
     std::erase_if(ties_, std::not_fn(knows));
@@ -291,13 +291,14 @@ class Joining {
     join_pairs();
   }
 
+  bool knows_direction(std::size_t i) const { return contacts_[i].knows_direction(tolerance_.rounding); }
+
   /// Whether a pair is not joined, nor known to touch, and is tried now.
   bool is_open(std::size_t i, std::size_t j) {
     if (sets_.find_set(i) == sets_.find_set(j)) return false;
     if (!is_for_unknown_) return true;
-    if (contacts_[i].knows_direction()) std::swap(i, j);
-    return !contacts_[i].knows_direction() &&
-           (!contacts_[j].knows_direction() || !touching_.contains({i, sets_.find_set(j)}));
+    if (knows_direction(i)) std::swap(i, j);
+    return !knows_direction(i) && (!knows_direction(j) || !touching_.contains({i, sets_.find_set(j)}));
   }
 
   bool has_plane(std::size_t i) const {
@@ -324,7 +325,7 @@ class Joining {
     std::ranges::sort(touching);
     touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
     for (const std::size_t i : ties_)
-      if (!contacts_[i].knows_direction()) members.emplace_back(sets_.find_set(i), i);
+      if (!knows_direction(i)) members.emplace_back(sets_.find_set(i), i);
     for (std::size_t i = 0; i < touching.size(); ++i)
       for (std::size_t j = i + 1; j < touching.size() && touching[j].first == touching[i].first; ++j)
         if (!are_apart(touching[i].second, touching[j].second))
@@ -352,7 +353,7 @@ class Joining {
     const auto rank = [&](std::size_t i) { return std::pair(!has_plane(i), contacts_[i].direction_error); };
     for (const std::size_t i : ties_) {
       std::size_t& own = best[sets_.find_set(i)];
-      if (contacts_[i].knows_direction() && (own == NOT_KNOWN || rank(i) < rank(own))) own = i;
+      if (knows_direction(i) && (own == NOT_KNOWN || rank(i) < rank(own))) own = i;
     }
     return best;
   }
@@ -361,8 +362,8 @@ class Joining {
     LMDBENCH_EXPECTS(std::abs(contacts_[i].distance - contacts_[j].distance) <=
                          tolerance_.widest_tie(std::max(contacts_[i].distance, contacts_[j].distance)),
                      "contacts at unlike distances: no tolerance grows as a distance shrinks");
-    if (is_for_unknown_ && contacts_[i].knows_direction() != contacts_[j].knows_direction()) {
-      if (contacts_[i].knows_direction()) std::swap(i, j);
+    if (is_for_unknown_ && knows_direction(i) != knows_direction(j)) {
+      if (knows_direction(i)) std::swap(i, j);
       touching_.emplace(i, sets_.find_set(j));
       return;
     }

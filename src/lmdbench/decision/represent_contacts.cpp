@@ -174,8 +174,9 @@ Representative represent_contacts(const ShapePair& pair, ContactPlaces& places,
   result.namesake = result.middle ? nearest_to(pair, places, *result.middle, pieces)
                                   : nearest_contact(pair, places, points.empty() ? pieces : points);
   // Edges along each other touch in a direction that only a face beside them knows.
+  const auto knows = [&](const Contact& c) { return c.knows_direction(pair.tolerance.rounding); };
   const Contact& best = **std::ranges::min_element(contacts, {}, &Contact::direction_error);
-  if (!result.contact().knows_direction() && best.knows_direction()) {
+  if (!knows(result.contact()) && knows(best)) {
     result.middle = result.contact();
     result.middle->direction = best.direction;
   }
