@@ -39,12 +39,14 @@ nlohmann::json to_json(const PartsResult& result) {
 
 void print_row(const PartsResult& result) {
   const Judgement all = sum_of(result.judgements);
-  fmt::print(
-      "| {} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.1e} | {} | {} |\n", result.kind,
-      name_of(result.coordinates), result.poses, result.true_lmds, result.wrong_poses, all.same.missed(),
-      all.same.wrong(), all.duplicates, all.worst_distance_difference, all.worst_point_difference,
-      result.coordinates == parts::Coordinates::RECUT ? fmt::format("{}", result.poses_that_show_cut) : "",
-      result.coordinates == parts::Coordinates::RECUT ? fmt::format("{}", result.of_these_at_a_border) : "");
+  const auto of_recut = [&](std::size_t count) {
+    return result.coordinates == parts::Coordinates::RECUT ? fmt::format("{}", count) : "";
+  };
+  fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {:.1e} | {:.1e} | {} | {} |\n", result.kind,
+             name_of(result.coordinates), result.poses, result.true_lmds, result.wrong_poses,
+             all.same.missed(), all.same.wrong(), all.duplicates, all.worst_distance_difference,
+             all.worst_point_difference, of_recut(result.poses_that_show_cut),
+             of_recut(result.of_these_at_a_border));
   std::fflush(stdout);
 }
 

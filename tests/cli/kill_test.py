@@ -153,7 +153,7 @@ def main():
                 continue
             opened += 1
             largest_loss = max(largest_loss, seen - count)
-            if count < seen or count < 0:
+            if count < seen:
                 failures.append(f"kill {kill}: {seen - count} frames lost that were in the part before")
             failures += [f"kill {kill}: {problem}" for problem in check_part(part, whole)]
             if kill % arguments.complete_every == arguments.complete_every - 1:

@@ -33,12 +33,10 @@ using enum FeatureKind;
 
 /// Distance of a point from the mesh feature with this id.
 double off_feature(const Surface& surface, const FeatureId& feature, const Vec3& p_S) {
-  const auto vertex = [&](std::int32_t v) { return surface.mesh.vertices[static_cast<std::size_t>(v)]; };
-  if (feature.kind == VERTEX) return (vertex(feature.index) - p_S).norm();
-  if (feature.kind == EDGE) {
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(feature.index)];
-    return (point_segment_distance(p_S, {vertex(ends[0]), vertex(ends[1])}).point - p_S).norm();
-  }
+  if (feature.kind == VERTEX)
+    return (surface.mesh.vertices[static_cast<std::size_t>(feature.index)] - p_S).norm();
+  if (feature.kind == EDGE)
+    return (point_segment_distance(p_S, surface.edge(feature.index)).point - p_S).norm();
   return (point_triangle_distance(p_S, surface.mesh.triangle(feature.index)).point - p_S).norm();
 }
 
@@ -112,11 +110,17 @@ TEST(JoinContacts, TheOrderOfContactsDoesNotMatter) {
     expect_any_order_gives_the_same(scene, pose);
 }
 
+/// Two boxes of which an upright edge of each touches one of the other along a tenth of it, where
+/// the moving one is not turned by more than a quarter turn about it.
+ShapeScene edge_along_edge() {
+  const auto box_at = [](const Vec3& middle) { return translated(make_box({1.0, 1.0, 1.0}), middle); };
+  return {box_at(Vec3(-0.5, 0.5, 0.9)), box_at(Vec3(0.5, -0.5, 0.0))};
+}
+
 /// An edge along an edge touches it in any of many directions: what it meets in two known ones
 /// stays two, whatever is asked first.
 TEST(JoinContacts, EdgesThatTouchAlongEachOtherLeaveTheFacesBesideThemApart) {
-  const auto beside = [](const Vec3& middle) { return translated(make_box({1.0, 1.0, 1.0}), middle); };
-  ShapeScene scene(beside(Vec3(-0.5, 0.5, 0.9)), beside(Vec3(0.5, -0.5, 0.0)));
+  ShapeScene scene = edge_along_edge();
   for (const double angle : {0.05, 0.18, 0.4})
     for (const double gap : {0.0, 2e-16, 1.8e-15}) {
       SCOPED_TRACE(::testing::Message() << "angle " << angle << ", gap " << gap);
@@ -173,8 +177,7 @@ TEST(JoinContacts, OfSegmentsOfOneLengthRoundingDoesNotChoose) {
 
 /// From rounding on edges past each other are one LMD, in the direction of their gap.
 TEST(JoinContacts, EdgesPastEachOtherAreOneLmdInTheDirectionOfTheirGap) {
-  const auto beside = [](const Vec3& middle) { return translated(make_box({1.0, 1.0, 1.0}), middle); };
-  ShapeScene scene(beside(Vec3(-0.5, 0.5, 0.9)), beside(Vec3(0.5, -0.5, 0.0)));
+  ShapeScene scene = edge_along_edge();
   const double yaw = 0.18;
   for (const double share : {0.1, 0.5, 0.9})
     for (const double gap : {2.5e-13, 8e-13, 3e-12, 1e-9, 1e-5}) {
@@ -188,8 +191,7 @@ TEST(JoinContacts, EdgesPastEachOtherAreOneLmdInTheDirectionOfTheirGap) {
 
 /// The same with some of the contacts: what is unknown gives its points, and takes a direction.
 TEST(JoinContacts, WhatTouchesInNoKnownDirectionHasThoseOfWhatItMeets) {
-  const auto beside = [](const Vec3& middle) { return translated(make_box({1.0, 1.0, 1.0}), middle); };
-  ShapeScene scene(beside(Vec3(-0.5, 0.5, 0.9)), beside(Vec3(0.5, -0.5, 0.0)));
+  ShapeScene scene = edge_along_edge();
   const double angle = 0.18;
   const Pose pose = turned_by(angle, Vec3::UnitZ(), Vec3(-1.8e-15, 0.0, 0.0));
   const ShapePair pair = scene.at(pose);

@@ -117,7 +117,6 @@ class Joining {
     // Triangles that touch where no LMD was reported intersect after all.
     std::vector<Contact> reported;
     for (const std::size_t i : reported_) reported.push_back(contacts_[i]);
-    for (const auto& [known, member] : shared_) reported.push_back(contacts_[member]);
     TouchingContacts near(pair_, places_, reported);
     for (const RestingRegions& regions : held)
       if (!near.hold(regions)) at_rest.compare(regions, touching);
@@ -313,35 +312,29 @@ class Joining {
   /// Contacts of unknown direction make one of the sets that they touch, but of those at an angle:
   /// they give their points to each of these.
   void join_through_unknown() {
-    // Which set is represented by what must not depend on what was joined before.
+    // What tells a set's direction must not depend on what this joins.
     const std::pmr::vector<std::size_t> best = best_known();
     const auto are_apart = [&](std::size_t a, std::size_t b) {
       const std::size_t i = best[a], j = best[b];
       return are_at_an_angle(i, j) &&
              ((has_plane(i) && has_plane(j)) || !places_.have_one_direction(contacts_[i], contacts_[j]));
     };
-    std::pmr::vector<std::pair<std::size_t, std::size_t>> touching(&memory_), members(&memory_);
+    std::pmr::vector<std::pair<std::size_t, std::size_t>> touching(&memory_);
     for (const auto& [unknown, known] : touching_) touching.emplace_back(sets_.find_set(unknown), known);
     std::ranges::sort(touching);
     touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
-    for (const std::size_t i : ties_)
-      if (!knows_direction(i)) members.emplace_back(sets_.find_set(i), i);
     for (std::size_t i = 0; i < touching.size(); ++i)
       for (std::size_t j = i + 1; j < touching.size() && touching[j].first == touching[i].first; ++j)
         if (!are_apart(touching[i].second, touching[j].second))
           sets_.union_set(touching[i].second, touching[j].second);
-    for (std::size_t begin = 0; begin < touching.size();) {
-      std::size_t end = begin;
-      bool is_one = true;
-      const std::size_t of_unknown = touching[begin].first;
-      for (; end < touching.size() && touching[end].first == of_unknown; ++end)
-        is_one = is_one && sets_.find_set(touching[end].second) == sets_.find_set(touching[begin].second);
-      if (is_one)
-        sets_.union_set(of_unknown, touching[begin].second);
+    for (auto begin = touching.begin(); begin != touching.end();) {
+      const auto end = std::ranges::find_if(begin, touching.end(),
+                                            [&](const auto& pair) { return pair.first != begin->first; });
+      const std::size_t set = sets_.find_set(begin->second);
+      if (std::all_of(begin, end, [&](const auto& pair) { return sets_.find_set(pair.second) == set; }))
+        sets_.union_set(begin->first, set);
       else
-        for (; begin < end; ++begin)
-          for (const auto& [set, member] : members)
-            if (set == of_unknown) shared_.emplace_back(touching[begin].second, member);
+        shared_.insert(shared_.end(), begin, end);
       begin = end;
     }
   }
@@ -609,10 +602,13 @@ class Joining {
       minima.push_back(&contacts_[i]);
       has_points = has_points || contacts_[i].dimension == 0 || contacts_[i].covers_point;
     }
-    for (const auto& [known, member] : shared_) {
-      if (sets_.find_set(member) == sets_.find_set(set.front())) return;  // They are of those.
-      if (sets_.find_set(known) == sets_.find_set(set.front()))
-        has_points = has_points || contacts_[member].dimension == 0;
+    for (const auto& [unknown, known] : shared_) {
+      const std::size_t root = sets_.find_set(set.front());
+      if (sets_.find_set(unknown) == root) {  // These are of the LMDs that they touch.
+        reported_.insert(reported_.end(), set.begin(), set.end());
+        return;
+      }
+      if (sets_.find_set(known) == root) has_points = has_points || has_point(sets_.find_set(unknown));
     }
     if (has_points) {
       const Representative whole = represent_contacts(pair_, places_, minima);
@@ -620,6 +616,12 @@ class Joining {
     } else if (sum_of(set) != 0) {  // Rule S: no minimum.
       report(contacts_[set.front()], contacts_[set.front()], set, false);
     }
+  }
+
+  bool has_point(std::size_t root) {
+    return std::ranges::any_of(ties_, [&](std::size_t i) {
+      return contacts_[i].is_minimum && contacts_[i].dimension == 0 && sets_.find_set(i) == root;
+    });
   }
 
   int sum_of(std::span<const std::size_t> set) const {
@@ -667,7 +669,7 @@ class Joining {
   bool is_for_unknown_ = false;  ///< Pairs of two contacts of known direction were tried.
   /// Contacts of unknown direction and roots of known ones that they are one with.
   std::pmr::set<std::pair<std::size_t, std::size_t>> touching_{&memory_};
-  /// Of sets at an angle a contact each, and contacts of unknown direction that touch them.
+  /// A contact of a set of unknown direction, and one of each set at an angle that it touches.
   std::pmr::vector<std::pair<std::size_t, std::size_t>> shared_{&memory_};
   std::pmr::vector<std::size_t> reported_{&memory_};  ///< Of LMDs no farther than the tolerance.
   boost::disjoint_sets<std::size_t*, std::size_t*> sets_{nullptr, nullptr};
