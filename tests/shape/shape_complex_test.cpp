@@ -9,6 +9,8 @@
 #include <support/sheets.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace lmdbench {
@@ -97,6 +99,24 @@ TEST(ShapeComplex, TheInnerCornerOfAnLHasAWingInsideIt) {
       EXPECT_TRUE(std::ranges::any_of(wings, [&](const Vec3& w) { return w.dot(outwards) > 0.1 * size; }));
       EXPECT_TRUE(std::ranges::any_of(wings, [&](const Vec3& w) { return w.dot(outwards) < -0.1 * size; }));
     }
+  }
+}
+
+TEST(ShapeComplex, AReflexCornerCutIntoACapHasAWingIntoIt) {
+  // 225 degrees at the origin, half a turn of which is one triangle, beside a step of 1e-7 m: its
+  // sides say no more of the direction between them than 1e-7 of their length.
+  constexpr double STEP = 1e-7;
+  const Surface surface = build_surface({{Vec3(0.0, 0.0, 0.0), Vec3(-STEP, -STEP, 0.0), Vec3(-0.1, -1.0, 0.0),
+                                          Vec3(0.0, -1.0, 0.0), Vec3(STEP, 0.25, 0.0)},
+                                         {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}});
+  const ShapeComplex shape = ShapeComplex::of(surface);
+  ASSERT_EQ(shape.regions.region_count(), 1);
+  ASSERT_TRUE(shape.is_corner(0));
+  const auto wings = corner_wings(surface, shape, 0);
+  EXPECT_EQ(wings.size(), 5u);
+  for (double angle = -0.75 * std::numbers::pi; angle < 0.5 * std::numbers::pi; angle += 0.01) {
+    const Vec3 into(std::cos(angle), std::sin(angle), 0.0);
+    EXPECT_TRUE(std::ranges::any_of(wings, [&](const Vec3& w) { return w.dot(into) > 0.7 * STEP; })) << angle;
   }
 }
 

@@ -8,6 +8,8 @@
 #include <lmdbench/shape/planar_faces.h>
 #include <lmdbench/shape/shape_complex.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -173,7 +175,9 @@ void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vert
     shortest = std::min(shortest, length);
     wings_.push_back(wing);
   }
-  // Regions of 180 degrees and more: without a wing inside, a notch's corner would have a cone.
+  // Regions of 180 degrees and more: without wings inside, a notch's corner would have a cone. No
+  // two neighbours are more than a right angle apart: of nearly opposite wings both may be level
+  // to rounding where what is between them leads down.
   std::vector<std::pair<std::int32_t, std::int32_t>> of_regions;  // region, triangle
   for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex])
     if (region_of(t) >= 0 && shapes.of_region(region_of(t)) != nullptr)
@@ -181,27 +185,25 @@ void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vert
   std::ranges::sort(of_regions);
   for (std::size_t next = 0; next < of_regions.size();) {
     const std::int32_t region = of_regions[next].first;
+    const Vec3& normal = regions.planes[static_cast<std::size_t>(region)].normal;
     double angle = 0.0;
-    std::vector<std::int32_t> inside;
+    std::vector<Vec3> inside;
     for (; next < of_regions.size() && of_regions[next].first == region; ++next) {
       const std::int32_t t = of_regions[next].second;
       const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
+      const auto& sides = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)];
       const std::array<double, 3> angles = corner_angles(surface.mesh.triangle(t));
-      for (std::size_t k = 0; k < 3; ++k)
-        if (corners[k] == vertex) angle += angles[k];
-      for (const std::int32_t e : surface.adjacency.triangle_edges[static_cast<std::size_t>(t)]) {
-        const auto& own = surface.adjacency.edges[static_cast<std::size_t>(e)];
-        if (chain_of(e) < 0 && (own[0] == vertex || own[1] == vertex))
-          inside.push_back(own[0] == vertex ? own[1] : own[0]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (corners[k] != vertex) continue;
+        const Vec3 side = position(corners[(k + 1) % 3]) - p;
+        angle += angles[k];
+        if (chain_of(sides[k]) < 0) inside.push_back(side);
+        if (angles[k] > 0.5 * std::numbers::pi)
+          inside.emplace_back(Eigen::AngleAxisd(0.5 * angles[k], normal) * side);
       }
     }
     if (angle < std::numbers::pi - ANGLE_ROUNDING) continue;
-    std::ranges::sort(inside);
-    inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
-    for (const std::int32_t v : inside) {
-      const Vec3 wing = position(v) - p;
-      wings_.push_back(std::min(1.0, shortest / wing.norm()) * wing);
-    }
+    for (const Vec3& wing : inside) wings_.push_back(std::min(1.0, shortest / wing.norm()) * wing);
   }
 }
 

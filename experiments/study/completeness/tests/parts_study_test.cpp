@@ -137,6 +137,11 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
                {Vec3(-0.13922516500732249, -0.029131019384604662, 0.58187167550989116),
                 Eigen::Quaterniond(-0.47087357376304401, 0.80848839156785568, 0.066390526035828706,
                                    0.34672308299899318)});
+  // A cap inside a reflex corner beside a step of 2.4e-8 m.
+  expect_right({"slit block on its copy", Coordinates::RECUT, 20261126, 76},
+               {Vec3(-0.99220915180388625, 0.82689688261752003, -0.44922842577661476),
+                Eigen::Quaterniond(0.7060450655708671, -0.038733922840181588, -0.70604513862579243,
+                                   -0.038733846017747035)});
   // Borders overlap by 1e-13 to 1e-11: segments of one length between edges, edges and faces.
   expect_right({"egg crate on egg crate", Coordinates::RECUT, 501, 30},
                {Vec3(0.57812499998498812, 0.3105834925951006, 0.57821771595748772),
