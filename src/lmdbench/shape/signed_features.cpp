@@ -23,6 +23,7 @@ constexpr int MOST_STEPS = 1000;
 /// A triangle at a vertex: the next corner and the one after, counter-clockwise.
 struct FanTriangle {
   std::int32_t next, last, triangle;
+  std::int32_t edge;  ///< To the next corner.
 };
 
 /// Triangles round a vertex, counter-clockwise; empty where they are not one closed fan.
@@ -31,7 +32,9 @@ std::vector<FanTriangle> fan_round(const Surface& surface, std::int32_t vertex) 
   for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex]) {
     const auto& c = surface.mesh.triangles[static_cast<std::size_t>(t)];
     for (std::size_t k = 0; k < 3; ++k)
-      if (c[k] == vertex) all.push_back({c[(k + 1) % 3], c[(k + 2) % 3], t});
+      if (c[k] == vertex)
+        all.push_back({c[(k + 1) % 3], c[(k + 2) % 3], t,
+                       surface.adjacency.triangle_edges[static_cast<std::size_t>(t)][k]});
   }
   if (all.empty()) return {};
   const std::int32_t first = all.front().next;
@@ -47,14 +50,6 @@ std::vector<FanTriangle> fan_round(const Surface& surface, std::int32_t vertex) 
   }
   if (fan.empty() || fan.back().last != fan.front().next) return {};
   return fan;
-}
-
-std::int32_t edge_between(const Surface& surface, std::int32_t triangle, std::int32_t a, std::int32_t b) {
-  for (const std::int32_t e : surface.adjacency.triangle_edges[static_cast<std::size_t>(triangle)]) {
-    const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(e)];
-    if ((ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a)) return e;
-  }
-  return -1;
 }
 
 /// Unit vector along which all normals rise, or zero: a perceptron, which needs a margin.
@@ -118,14 +113,13 @@ void SignedFeatures::add_chain(const Surface& surface, const ShapeComplex& shape
     const std::int32_t t = triangles[k];
     if (shape.region_of(t) < 0) return;
     const auto& corners_of = surface.mesh.triangles[static_cast<std::size_t>(t)];
-    const auto& edge_ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
+    const auto& sides = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)];
     // A triangle is to the left of its sides.
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::int32_t from = corners_of[c], to = corners_of[(c + 1) % 3];
-      if ((from != edge_ends[0] || to != edge_ends[1]) && (from != edge_ends[1] || to != edge_ends[0]))
-        continue;
-      chain.sides[k] = {shape.region_of(t), (at(to) - at(from)).dot(along) > 0.0 ? 1.0 : -1.0};
-    }
+    for (std::size_t c = 0; c < 3; ++c)
+      if (sides[c] == edge) {
+        const double run = (at(corners_of[(c + 1) % 3]) - at(corners_of[c])).dot(along);
+        chain.sides[k] = {shape.region_of(t), run > 0.0 ? 1.0 : -1.0};
+      }
     if (chain.sides[k].region < 0) return;
   }
   chain.has_index = chain.sides[0].region != chain.sides[1].region;
@@ -138,10 +132,7 @@ void SignedFeatures::add_corner(const Surface& surface, const ShapeComplex& shap
   const auto at = [&](std::int32_t v) -> const Vec3& {
     return surface.mesh.vertices[static_cast<std::size_t>(v)];
   };
-  const auto chain_before = [&](const FanTriangle& triangle) {
-    const std::int32_t edge = edge_between(surface, triangle.triangle, vertex, triangle.next);
-    return edge < 0 ? -1 : shape.chain_of(edge);
-  };
+  const auto chain_before = [&](const FanTriangle& triangle) { return shape.chain_of(triangle.edge); };
   for (const FanTriangle& triangle : fan)
     if (shape.region_of(triangle.triangle) < 0) return;
   // Begins at a chain.
