@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// Each row of the table of DEFINITION.md, and that it holds at its boundary.
@@ -415,6 +417,26 @@ TEST(Decide, WhatIsNoFeatureHasNoContact) {
     decide(other, f, {FeatureKind::VERTEX, static_cast<std::int32_t>(loose.vertices.size()) - 1},
            with_vertex);
   EXPECT_TRUE(with_vertex.contacts.empty()) << "a vertex without triangles";
+}
+
+/// Needles have edges whose cone no side bounds: where they touch, their difference may be square
+/// to the product of their directions. They make one LMD, however little they are turned.
+TEST(PolarCondition, AnEdgeWithoutSidesLeavesItsDirectionOpen) {
+  const auto needle = [] {
+    return TriangleMesh{{Vec3(0.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0)}, {{0, 1, 2}}};
+  };
+  ShapeScene scene(needle(), needle());
+  for (const double turn : {1e-13, 3e-11, 1e-9}) {
+    SCOPED_TRACE(turn);
+    const Pose X_WM{Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vec3::UnitZ()))};
+    const ContactSet set = scene.contacts(X_WM);
+    EXPECT_TRUE(std::ranges::any_of(set.contacts, [](const Contact& c) {
+      return c.dimension == 1 && c.distance > 0.0 && c.direction_error > 0.5;
+    }));
+    std::set<std::pair<FeatureId, FeatureId>> names;
+    for (const Lmd& lmd : scene.lmds(X_WM))
+      EXPECT_TRUE(names.emplace(lmd.feature_moving, lmd.feature_fixed).second) << "two of one name";
+  }
 }
 
 /// The fans of a vertex are a fact of the mesh. A decision that counted them again would look at

@@ -57,15 +57,8 @@ ScenePair quarter_turned(const ScenePair& pair, Random& random, double& /*scale*
 }
 
 ScenePair scaled(const ScenePair& pair, Random& random, double& scale) {
-  ScenePair result = pair;
   scale = std::ldexp(1.0, static_cast<int>(random.index(21)) - 10);
-  for (TriangleMesh* mesh : {&result.moving, &result.fixed}) {
-    move_vertices(*mesh, [&](const Vec3& p) { return Vec3(scale * p); });
-    mesh->planar_tolerance *= scale;
-  }
-  result.X_WM.translation *= scale;
-  result.cutoff *= scale;
-  return result;
+  return scaled_by(scale, pair);
 }
 
 template <TriangleMesh (*CHANGE)(TriangleMesh, Random&)>
@@ -250,6 +243,16 @@ ScenePair pair_of(const parts::RestScene& scene) {
   pair.is_level = !scene.single_precision;
   for (const parts::RestPlace& place : scene.places)
     if (!place.demanded) pair.open.push_back(place.gap);
+  return pair;
+}
+
+ScenePair scaled_by(double factor, ScenePair pair) {
+  for (TriangleMesh* mesh : {&pair.moving, &pair.fixed}) {
+    move_vertices(*mesh, [&](const Vec3& p) { return Vec3(factor * p); });
+    mesh->planar_tolerance *= factor;
+  }
+  pair.X_WM.translation *= factor;
+  pair.cutoff *= factor;
   return pair;
 }
 

@@ -30,6 +30,10 @@ struct ScenePair {
 Scene scene_of(const ScenePair& pair);
 ScenePair pair_of(const Scene& scene, const Pose& X_WM);
 ScenePair pair_of(const parts::RestScene& scene);
+/// With all lengths times a factor; `open` stays.
+ScenePair scaled_by(double factor, ScenePair pair);
+/// The set of a method.
+LmdSet set_of(const char* method, const ScenePair& pair);
 
 struct Change {
   const char* name;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <study/completeness/metamorphic.h>
 #include <study/completeness/parts_study.h>
 
 #include <algorithm>
@@ -50,14 +51,24 @@ bool same_contacts(const LmdSet& a, const LmdSet& b, double scale) {
   return left.empty();
 }
 
-bool is_at_a_border(Method& exhaustive, const Pose& X_WM, double scale) {
-  const LmdSet set = lmds_at(exhaustive, X_WM);
+bool is_at_a_border(const Scene& scene, const Pose& X_WM, double scale) {
+  const auto exhaustive = make_method("exhaustive", scene);
+  const LmdSet set = lmds_at(*exhaustive, X_WM);
   const auto changes = [&](const Vec3& translation, const Vec3& turn) {
     Pose moved = X_WM;
     moved.translation += translation;
     moved.rotation = Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()) * moved.rotation;
-    return !same_contacts(set, lmds_at(exhaustive, moved), 2.0 * scale);
+    return !same_contacts(set, lmds_at(*exhaustive, moved), 2.0 * scale);
   };
+  for (const double part : {3.0, 5.0, 7.0}) {
+    LmdSet rounded = set_of("exhaustive", scaled_by(1.0 / part, pair_of(scene, X_WM)));
+    for (Lmd& lmd : rounded) {
+      lmd.distance *= part;
+      lmd.point_moving *= part;
+      lmd.point_fixed *= part;
+    }
+    if (!same_contacts(set, rounded, 0.25 * scale)) return true;
+  }
   for (const double by : {-SAME, SAME})
     for (int axis = 0; axis < 3; ++axis)
       if (changes(by * scale * Vec3::Unit(axis), Vec3::Zero()) ||
@@ -112,7 +123,7 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
       if (!uncut) continue;
       const LmdSet truth_of_uncut = lmds_at(*of_uncut, pose);
       if (same_contacts(truth, truth_of_uncut, scene.diagonal)) continue;
-      const bool at_border = is_at_a_border(*of_uncut, pose, scene.diagonal);
+      const bool at_border = is_at_a_border(uncut->scene, pose, scene.diagonal);
       ++result.poses_that_show_cut;
       result.of_these_at_a_border += at_border;
       complain(fmt::format("{}  // the cut shows{}; exact:\n{}recut:\n{}", test_line(choice, pose),

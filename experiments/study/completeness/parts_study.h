@@ -40,8 +40,10 @@ bool same_contacts(const LmdSet& a, const LmdSet& b, double scale);
 /// Whether the set at a pose is another one (by twice the places of `same_contacts`) after one of
 /// twelve moves and turns as small as the tolerance of the definition, along and about each axis:
 /// it hangs on what is as narrow, as level or as far as the tolerance, which rounding may decide.
+/// Or whether rounding alone moves a place by a quarter of that, when all lengths are divided by an
+/// odd number: the middle of a face of 3e-9 m by 1 m is known to some 1e-9 m.
 /// @param scale  the parts' extent [m]; a turn moves no point by more than the tolerance of it
-bool is_at_a_border(Method& exhaustive, const Pose& X_WM, double scale);
+bool is_at_a_border(const Scene& scene, const Pose& X_WM, double scale);
 
 /// @param complain receives each wrong pose as a line for a test (`expect_right`), and the errors
 PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts::Coordinates coordinates,

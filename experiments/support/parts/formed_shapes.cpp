@@ -309,8 +309,12 @@ TriangleMesh relief_mesh(Relief& relief, bool up, bool open, double ground, int 
 }
 
 TriangleMesh random_scan(Random& random) {
-  Relief relief = random_relief(random);
-  return relief_mesh(relief, chance(0.5, random), true, 0.0, chance(0.3, random) ? 2 : 1, 0.15, random);
+  TriangleMesh mesh;
+  while (mesh.triangles.empty()) {  // Holes may leave nothing of a small one.
+    Relief relief = random_relief(random);
+    mesh = relief_mesh(relief, chance(0.5, random), true, 0.0, chance(0.3, random) ? 2 : 1, 0.15, random);
+  }
+  return mesh;
 }
 
 TriangleMesh random_truss(Random& random) {

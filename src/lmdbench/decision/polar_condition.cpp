@@ -61,7 +61,7 @@ bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S)
 std::optional<KnownDirection> common_direction(const ShapeSide& moving, const FeatureId& f,
                                                const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
                                                double error, const PolarSlack& slack, double tilt) {
-  LMDBENCH_EXPECTS(is_unit(u_W) && error >= 0.0, "a direction between points at one place");
+  LMDBENCH_EXPECTS(is_unit(u_W) && error >= 0.0 && error <= 1.0, "a direction between points at one place");
   std::vector<Vec3> bounds;
   append_bounds(moving, f, bounds);
   append_bounds(fixed, g, bounds);
@@ -76,7 +76,12 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   };
   consider(u_W);
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    consider(u_W - u_W.dot(bounds[i]) * bounds[i]);
+    const Vec3 foot = u_W - u_W.dot(bounds[i]) * bounds[i];
+    consider(foot);
+    // As far off as u may be, where no other plane comes first (an edge without sides).
+    const Vec3 off = error * bounds[i].cross(foot), rest = std::sqrt(1.0 - error * error) * foot;
+    consider(rest + off);
+    consider(rest - off);
     for (std::size_t k = 0; k < i; ++k) {
       const Vec3 both = bounds[i].cross(bounds[k]);
       consider(both);

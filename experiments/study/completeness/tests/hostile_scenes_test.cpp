@@ -63,6 +63,18 @@ TEST(HostileScenes, AreSearchedWithoutLoss) {
   EXPECT_GT(lmds, 7000u);
 }
 
+/// Copies turned by as little as the tolerance about a place where they touch, whose edges have no
+/// sides: a pair of edges had two LMDs.
+TEST(HostileScenes, APairOfFeaturesHasOneLmd) {
+  for (const auto& [index, k] : {std::pair(162, 14), std::pair(1708, 17), std::pair(2980, 2)}) {
+    const GeneratedScene hostile = make_hostile_scene(Motion::NONE, 777, static_cast<std::size_t>(index));
+    Exhaustive exhaustive(hostile.scene);
+    const LmdSet truth = lmds_at(exhaustive, hostile.poses[static_cast<std::size_t>(k)]);
+    std::string objection;
+    EXPECT_EQ(judge(truth, truth, hostile.scene, hostile.scale, objection).duplicates, 0U) << hostile.label;
+  }
+}
+
 TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {
   // Squashed meshes share parts of 1e-9 of the size, far from each other: any middle is right.
   const GeneratedScene hostile = make_hostile_scene(Motion::NONE, 9141, 290);

@@ -174,10 +174,10 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
 TEST(PartsStudy, TellsPosesAtABorderOfTheTolerance) {
   const parts::PartsScene scene =
       parts::make_parts_scene({"block on block", Coordinates::EXACT, 1, 0, PoseFamily::ANY});
-  const auto method = make_method("exhaustive", scene.scene);
   // 0.5 wide and 0.25 high: beside each other by the width, sides are over sides.
   const auto at_border = [&](double beside) {
-    return is_at_a_border(*method, {Vec3(beside, 0.1, 0.26), Eigen::Quaterniond::Identity()}, scene.diagonal);
+    return is_at_a_border(scene.scene, {Vec3(beside, 0.1, 0.26), Eigen::Quaterniond::Identity()},
+                          scene.diagonal);
   };
   EXPECT_FALSE(at_border(0.2));
   EXPECT_FALSE(at_border(0.4));
@@ -185,6 +185,13 @@ TEST(PartsStudy, TellsPosesAtABorderOfTheTolerance) {
   // A turn about z moves the middle of so narrow an overlap along it, a move makes it an edge's.
   EXPECT_TRUE(at_border(0.5 - 1e-6));
   EXPECT_TRUE(at_border(0.5));
+  // A face 3e-9 wide, cut otherwise: its middle lies 1.2e-9 beside, by rounding alone.
+  const Pose X_WM{Vec3(-0.88470117551058758, -0.20220396228244608, -0.32789735828438243),
+                  Eigen::Quaterniond(-0.20489844364268023, -0.67676925742294736, -0.67676925742294725,
+                                     0.2048984436426802)};
+  const parts::PartsScene thin =
+      parts::make_parts_scene({"slit block on thin plate", Coordinates::EXACT, 777, 12, PoseFamily::ANY});
+  EXPECT_TRUE(is_at_a_border(thin.scene, X_WM, thin.diagonal));
 }
 
 /// Share of poses where the cut may show: where a move as small as the tolerance changes the set.
