@@ -260,26 +260,29 @@ TEST(PartOf, ASegmentAlongASideIsInside) {
   EXPECT_FALSE(ConvexPolygon().part_of({0, 0}, {1, 0}, 9.0).end > 0.0) << "nothing is in nothing";
 }
 
-TEST(Holds, IsClosedAtTheReachOfEverySide) {
+TEST(Holds, IsClosedAtTheReach) {
   const ConvexPolygon square({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
   for (const Vec2& on : {Vec2(0, 0), Vec2(1, 0.5), Vec2(0.5, 1), Vec2(1, 1)})
     EXPECT_TRUE(square.holds(on, 0.0));
-  EXPECT_TRUE(square.holds({1.5, 1.5}, 0.5)) << "square corners";
-  EXPECT_FALSE(square.holds({1.5, 1.75}, 0.5));
+  EXPECT_TRUE(square.holds({1.0, 1.5}, 0.5));
+  EXPECT_TRUE(square.holds({1.375, 1.5}, 0.625)) << "of a corner";
+  EXPECT_FALSE(square.holds({1.5, 1.5}, 0.625)) << "of both sides, not of their corner";
   EXPECT_FALSE(square.holds({-0.625, 0.5}, 0.5));
   EXPECT_FALSE(ConvexPolygon().holds({0, 0}, 1e9));
   std::mt19937_64 random(7);
   for (int i = 0; i < 500; ++i) {
     const ConvexPolygon polygon = random_convex_polygon(random, 7);
     const Vec2 x = random_point(random, 3.0);
-    const double within = 0.3 * uniform(random), height = height_over_sides(polygon, x);
-    if (std::abs(height - within) > 1e-12) {
-      EXPECT_EQ(polygon.holds(x, within), height < within);
+    const double within = 0.3 * uniform(random);
+    const double distance =
+        height_over_sides(polygon, x) <= 0.0 ? 0.0 : distance_between(polygon, ConvexPolygon({x}));
+    if (std::abs(distance - within) > 1e-12) {
+      EXPECT_EQ(polygon.holds(x, within), distance < within);
     }
   }
 }
 
-TEST(Touches, NeverMissesADistanceWithinReach) {
+TEST(Touches, TellsWhetherTheDistanceIsWithinReach) {
   std::mt19937_64 random(8);
   int near = 0, apart = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -302,8 +305,7 @@ TEST(Touches, NeverMissesADistanceWithinReach) {
       EXPECT_TRUE(touches) << i;
       ++near;
     }
-    // With within 0 the test is exact.
-    if (within == 0.0 && distance > 1e-9) {
+    if (distance > within + 1e-12) {
       EXPECT_FALSE(touches) << i;
       ++apart;
     }
@@ -314,6 +316,11 @@ TEST(Touches, NeverMissesADistanceWithinReach) {
   const ConvexPolygon square({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), next({{1.5, 0}, {2, 0}, {2, 1}, {1.5, 1}});
   EXPECT_TRUE(square.touches(next, 0.5));
   EXPECT_FALSE(square.touches(next, 0.49));
+  // Sharp corners of two pieces on both sides of a slit: sides run on as if they met.
+  const ConvexPolygon sharp({{0, 0}, {1, -0.01}, {1, 0.01}}), other({{-0.02, 0}, {-1, 0.01}, {-1, -0.01}});
+  EXPECT_FALSE(sharp.touches(other, 0.015));
+  EXPECT_FALSE(sharp.holds({-0.02, 0.0}, 0.015));
+  EXPECT_TRUE(sharp.touches(other, 0.0201));
 }
 
 }  // namespace

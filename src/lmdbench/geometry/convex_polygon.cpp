@@ -4,6 +4,9 @@
 #include <lmdbench/geometry/convex_polygon.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace lmdbench {
@@ -53,34 +56,51 @@ Box2 ConvexPolygon::box() const {
   return box;
 }
 
-bool ConvexPolygon::holds(const Vec2& x, double within) const {
-  LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec2 side = corners[(k + 1) % corners.size()] - corners[k];
-    if (cross(side, x - corners[k]) < -within * side.norm()) return false;
-  }
-  return !corners.empty();
-}
-
 namespace {
 
-/// Whether all of b is farther than `within` outside some side of a.
-bool side_separates(const ConvexPolygon& a, const ConvexPolygon& b, double within) {
+/// From a point to the nearest side.
+double distance_to_sides(const ConvexPolygon& polygon, const Vec2& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+    const Vec2 from = x - polygon.corners[k];
+    const Vec2 side = polygon.corners[(k + 1) % polygon.corners.size()] - polygon.corners[k];
+    const double squared = side.squaredNorm();
+    const double share = squared > 0.0 ? std::clamp(from.dot(side) / squared, 0.0, 1.0) : 0.0;
+    least = std::min(least, (from - share * side).squaredNorm());
+  }
+  return std::sqrt(least);
+}
+
+/// How far a side of `a` keeps all of b away at least: the most over the sides; 0 where none does.
+double kept_away(const ConvexPolygon& a, std::span<const Vec2> b) {
+  double most = 0.0;
   for (std::size_t k = 0; k < a.corners.size(); ++k) {
     const Vec2 side = a.corners[(k + 1) % a.corners.size()] - a.corners[k];
-    const double limit = -within * side.norm();
-    if (std::all_of(b.corners.begin(), b.corners.end(),
-                    [&](const Vec2& x) { return cross(side, x - a.corners[k]) < limit; }))
-      return true;
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (const Vec2& x : b)
+      if ((nearest = std::max(nearest, cross(side, x - a.corners[k]))) >= 0.0) break;
+    if (nearest < 0.0) most = std::max(most, -nearest / side.norm());
   }
-  return false;
+  return most;
 }
 
 }  // namespace
 
+bool ConvexPolygon::holds(const Vec2& x, double within) const {
+  LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
+  const double away = kept_away(*this, {&x, 1});
+  // Beyond a sharp corner a point is farther off than its sides tell.
+  return !corners.empty() && (away == 0.0 || (away <= within && distance_to_sides(*this, x) <= within));
+}
+
 bool ConvexPolygon::touches(const ConvexPolygon& other, double within) const {
   LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
-  return !side_separates(*this, other, within) && !side_separates(other, *this, within);
+  const double away = std::max(kept_away(*this, other.corners), kept_away(other, corners));
+  if (away == 0.0 || away > within) return away == 0.0;
+  const auto is_near = [&](const ConvexPolygon& a, const ConvexPolygon& b) {
+    return std::ranges::any_of(b.corners, [&](const Vec2& x) { return distance_to_sides(a, x) <= within; });
+  };
+  return is_near(*this, other) || is_near(other, *this);
 }
 
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {

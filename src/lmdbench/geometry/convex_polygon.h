@@ -86,9 +86,9 @@ struct ConvexPolygon {
   SegmentPart part_of(const Vec2& p, const Vec2& q, double within = 0.0) const;
   AreaAndCentroid measure() const { return area_and_centroid(corners); }
   Box2 box() const;
-  /// Whether a point is inside, or outside by no more than `within` of every side [m].
+  /// Whether a point is no farther away than `within` [m].
   bool holds(const Vec2& x, double within) const;
-  /// False where a side of either keeps the two farther than `within` [m] apart; else true.
+  /// Whether the two are no farther apart than `within` [m].
   bool touches(const ConvexPolygon& other, double within) const;
 };
 

@@ -288,6 +288,22 @@ TEST(Certified, FindsTheTruthBesideEdgesAsShortAsRounding) {
   EXPECT_GT(comparison.lmds(), 800u);
 }
 
+TEST(Certified, FindsTheTruthOfMeshesAsSmallAsRoundingOfTheOther) {
+  // Rounding of the large one's coordinates over the small one's wings: more than a cap's slack.
+  std::mt19937_64 random(15);
+  KernelComparison comparison;
+  for (int i = 0; i < 60; ++i) {
+    const double size = std::pow(10.0, -10.0 + 5.0 * testing::uniform(random));
+    const TriangleMesh small =
+        i % 2 == 0 ? make_blob(size, 0.4 * size, 1) : make_box(size * Vec3(1.0, 0.7, 1e-3), {3, 3, 1});
+    const TriangleMesh large = i % 4 < 2 ? make_box({1.0, 1.2, 0.7}, 2) : make_torus(1.0, 0.4, 12, 8);
+    const Scene scene = i % 8 < 4 ? make_scene(small, large, 0.0) : make_scene(large, small, 0.0);
+    for (int k = 0; k < 10; ++k)
+      comparison.check(scene, grazing_pose(scene, 0.01 * testing::uniform(random), random), 0.02);
+  }
+  EXPECT_GT(comparison.lmds(), 600u);
+}
+
 TEST(Certified, FindsEverythingWithoutCutoff) {
   const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 12, 8), 0.0);
   KernelComparison comparison;

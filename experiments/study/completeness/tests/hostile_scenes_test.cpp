@@ -75,6 +75,18 @@ TEST(HostileScenes, APairOfFeaturesHasOneLmd) {
   }
 }
 
+/// Meshes whose edges are as short as rounding of the other's coordinates.
+TEST(HostileScenes, AMeshFarSmallerThanTheOtherLosesNothing) {
+  for (const auto& [seed, index] : {std::pair(777, 9898), std::pair(779, 336)}) {
+    std::string wrong;
+    std::vector<Judgement> judgements(variants().size());
+    judge_scene(
+        make_hostile_scene(Motion::NONE, static_cast<std::uint64_t>(seed), static_cast<std::size_t>(index)),
+        [&](const std::string& what) { wrong += what + "\n"; }, judgements);
+    EXPECT_EQ(wrong, "");
+  }
+}
+
 TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {
   // Squashed meshes share parts of 1e-9 of the size, far from each other: any middle is right.
   const GeneratedScene hostile = make_hostile_scene(Motion::NONE, 9141, 290);

@@ -142,6 +142,11 @@ TEST(PartsStudy, PosesThatWereFoundAreRight) {
                {Vec3(-0.99220915180388625, 0.82689688261752003, -0.44922842577661476),
                 Eigen::Quaterniond(0.7060450655708671, -0.038733922840181588, -0.70604513862579243,
                                    -0.038733846017747035)});
+  // Faces on both sides of a slit of 3.5e-8 m, cut into pieces with sharp corners there.
+  expect_right({"any formed shape on any formed shape", Coordinates::RECUT, 777, 178},
+               {Vec3(-0.030428002831715262, -0.53139620999500459, -0.36668960959144759),
+                Eigen::Quaterniond(0.18758935119039558, -0.79465640232841528, -0.49112466601667187,
+                                   -0.30352594615360073)});
   // Borders overlap by 1e-13 to 1e-11: segments of one length between edges, edges and faces.
   expect_right({"egg crate on egg crate", Coordinates::RECUT, 501, 30},
                {Vec3(0.57812499998498812, 0.3105834925951006, 0.57821771595748772),

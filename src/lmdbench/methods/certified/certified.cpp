@@ -5,7 +5,7 @@
 #include <lmdbench/decision/join_contacts.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/well_formed.h>
-#include <lmdbench/methods/certified/build/signed_hierarchy.h>
+#include <lmdbench/methods/certified/build/hierarchies_among.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/decide/filter.h>
 #include <lmdbench/methods/certified/decide/touching_pairs.h>
@@ -31,6 +31,9 @@ constexpr double FILTER_MARGIN = 1e-5;
 constexpr double RELATIVE_TINY = 1e-8;
 /// A motion of more cutoffs in a frame is a jump: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
+
+/// A cutoff of more sizes of the meshes rejects nothing.
+constexpr double MOST_SIZES = 10.0;
 
 /// What is kept is made over several frames, which are searched from scratch meanwhile, and so is
 /// what a jolt makes due: so many tests a frame, or this part of the last search's or of those kept
@@ -120,6 +123,20 @@ class BorrowedScratch {
   SearchScratch* scratch_ = nullptr;
 };
 
+/// Of both meshes in the world at any pose within the cutoff [m]. Of a cutoff of more than ten
+/// sizes ten count (PROOF.md, not proved).
+double most_coordinates(const Scene& scene) {
+  const auto extent = [](const Body& body) { return body.prepared<ShapeComplex>().regions.extent; };
+  const double moving = extent(*scene.moving), fixed = extent(scene.fixed_body());
+  return std::numbers::sqrt3 * (2.0 * moving + fixed) + std::min(scene.cutoff, MOST_SIZES * (moving + fixed));
+}
+
+const WideHierarchy& hierarchy_of(const Body& body, const Scene& scene, bool with_critical) {
+  const double coordinates = most_coordinates(scene);
+  return with_critical ? body.prepared<HierarchiesAmong<true>>().at(body, coordinates)
+                       : body.prepared<HierarchiesAmong<false>>().at(body, coordinates);
+}
+
 /// For the contract of the filter.
 bool has_contact(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed) {
   ContactSet contacts;
@@ -175,15 +192,13 @@ Certified::Certified(Scene of_pair, const CertifiedOptions& options, WideKernel 
 
 Certified::Certified(Scene of_pair, const CertifiedOptions& options, WideKernel kernel, bool with_critical)
     : scene_(std::move(of_pair)),
-      hierarchy_moving_(with_critical ? scene_.moving->prepared<SignedHierarchy>().hierarchy
-                                      : scene_.moving->prepared<WideHierarchy>()),
+      hierarchy_moving_(hierarchy_of(*scene_.moving, scene_, with_critical)),
       shape_moving_(scene_.moving->prepared<ShapeComplex>()),
       signs_moving_(with_critical ? &scene_.moving->prepared<SignedFeatures>() : nullptr),
       options_(options),
       fixed_{scene_.fixed_body().surface(),
              scene_.fixed_body().prepared<ShapeComplex>(),
-             with_critical ? scene_.fixed_body().prepared<SignedHierarchy>().hierarchy
-                           : scene_.fixed_body().prepared<WideHierarchy>(),
+             hierarchy_of(scene_.fixed_body(), scene_, with_critical),
              with_critical ? &scene_.fixed_body().prepared<SignedFeatures>() : nullptr,
              {},
              {}},
@@ -193,7 +208,7 @@ Certified::Certified(Scene of_pair, const CertifiedOptions& options, WideKernel 
   const UseVectorTarget refused_here_if_not_available(target_);
   // A cutoff of ten times the meshes' size saves nothing, and would make lever arms too long.
   coherent_ =
-      coherent_ && scene_.cutoff <= 10.0 * std::max(hierarchy_moving_.radius, fixed_.hierarchy.radius);
+      coherent_ && scene_.cutoff <= MOST_SIZES * std::max(hierarchy_moving_.radius, fixed_.hierarchy.radius);
 }
 
 /// Brings the forecast to a frame.
