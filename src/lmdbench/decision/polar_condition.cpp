@@ -21,6 +21,8 @@ bool admits_wing(const Vec3& u, const Vec3& wing, const PolarSlack& slack) {
 constexpr std::size_t MOST_WINGS = 64;
 /// Where two slacks meet, at most so many times as far off as either, for planes at >= 30 degrees.
 constexpr double CORNER_OF_SLACKS = 4.0;
+/// Parts of the way back to u from the nearest direction between planes that are tried.
+constexpr double LEAST_SHARE = 1.0 / 128.0;
 /// Sine of the angle between two planes below which they have no direction in common.
 constexpr double PARALLEL = 1e-9;
 
@@ -70,9 +72,10 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   std::vector<Vec3> admitted;
   const auto consider = [&](const Vec3& x) {
     const double length = x.norm();
-    if (length > PARALLEL && admits_about(moving, f, x / length, slack, tilt) &&
-        admits_about(fixed, g, -x / length, slack, tilt))
-      admitted.push_back(x / length);
+    const bool is_admitted = length > PARALLEL && admits_about(moving, f, x / length, slack, tilt) &&
+                             admits_about(fixed, g, -x / length, slack, tilt);
+    if (is_admitted) admitted.push_back(x / length);
+    return is_admitted;
   };
   consider(u_W);
   for (std::size_t i = 0; i < bounds.size(); ++i) {
@@ -93,6 +96,8 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   KnownDirection known{*std::ranges::min_element(admitted, {}, off_u), 0.0};
   // Each condition holds to the error; both together hold farther away.
   if (error < 1.0 && (known.u - u_W).norm() > CORNER_OF_SLACKS * error) return std::nullopt;
+  // Short wings bound little: rounding grants directions far beyond their planes.
+  for (double share = 0.5; share > LEAST_SHARE && !consider(known.u + share * (u_W - known.u));) share *= 0.5;
   for (const Vec3& x : admitted) known.error = std::max(known.error, (x - known.u).norm());
   if (error < 1.0) known.error = std::min(known.error, error);
   known.is_strict = admits_strictly(moving, f, known.u, error) && admits_strictly(fixed, g, -known.u, error);
