@@ -420,6 +420,24 @@ TEST(DeformingCertified, WhatIsFarFromADeformationStaysKept) {
       << "kept tests are made again although nothing near them deforms";
 }
 
+TEST(DeformingCertified, AMeshWithEdgesAsShortAsRoundingOfTheOtherIsFollowed) {
+  // It has a hierarchy for such coordinates (build/hierarchies_among.h), which no refit follows.
+  std::mt19937_64 random(21);
+  const TriangleMesh small = merged(make_blob(1e-3, 3e-4, 2), make_box(2e-8 * Vec3::Ones())),
+                     large = make_box({1.0, 1.2, 0.7}, 2);
+  const Scene rest = testing::make_scene(small, large, 1.0);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 10; ++i) poses.push_back(grazing_pose(rest, 1e-4, random));
+  // What was far from the other mesh comes near it.
+  const Ran ran =
+      expect_truth(small, large, true, 2.5e-4, poses, [&](std::size_t frame, std::vector<Vec3>& vertices) {
+        const Eigen::AngleAxisd turn(2.0 * static_cast<double>(frame), random_direction(random));
+        vertices = small.vertices;
+        for (Vec3& p : vertices) p = turn * ((1.0 + 0.1 * uniform(random)) * p);
+      });
+  EXPECT_GT(ran.lmds, 5U);
+}
+
 TEST(DeformingMethods, AllFindTheSetOfTheNewMesh) {
   std::mt19937_64 random(16);
   for (const double offset : {0.0, 1e4}) {
