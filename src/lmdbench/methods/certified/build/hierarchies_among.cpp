@@ -33,55 +33,55 @@ double shortest_wing(const Surface& surface, const ShapeComplex& shape) {
   return shortest;
 }
 
-template <bool WITH_CRITICAL>
+template <bool WithCritical>
 const WideHierarchy& prepared_for_all(const Body& body) {
-  if constexpr (WITH_CRITICAL)
+  if constexpr (WithCritical)
     return body.prepared<SignedHierarchy>().hierarchy;
   else
     return body.prepared<WideHierarchy>();
 }
 
 /// @param exponent  of the power of two that bounds the coordinates
-template <bool WITH_CRITICAL>
+template <bool WithCritical>
 WideHierarchy build_among(const Body& body, int exponent) {
   ShapeComplex shape = body.prepared<ShapeComplex>();
   // What the least wing is measured by.
   shape.regions.extent = std::ldexp(1.0, exponent) / LARGEST_RATIO;
   return build_wide_hierarchy(body.surface(), &shape,
-                              WITH_CRITICAL ? &body.prepared<SignedFeatures>() : nullptr);
+                              WithCritical ? &body.prepared<SignedFeatures>() : nullptr);
 }
 
 }  // namespace
 
-template <bool WITH_CRITICAL>
-HierarchiesAmong<WITH_CRITICAL> HierarchiesAmong<WITH_CRITICAL>::of(const Body& body) {
+template <bool WithCritical>
+HierarchiesAmong<WithCritical> HierarchiesAmong<WithCritical>::of(const Body& body) {
   // It follows a deformation after what it builds on.
-  prepared_for_all<WITH_CRITICAL>(body);
+  prepared_for_all<WithCritical>(body);
   return {};
 }
 
-template <bool WITH_CRITICAL>
-void HierarchiesAmong<WITH_CRITICAL>::follow(const Body& body, const SurfaceChange& change) {
+template <bool WithCritical>
+void HierarchiesAmong<WithCritical>::follow(const Body& body, const SurfaceChange& change) {
   if (change.moved.empty()) return;
   shortest_wing_.reset();
   for (auto& [exponent, hierarchy] : made_) {
     const std::uint32_t now = hierarchy->changes.now + 1;
-    *hierarchy = build_among<WITH_CRITICAL>(body, exponent);
+    *hierarchy = build_among<WithCritical>(body, exponent);
     hierarchy->changes.now = hierarchy->changes.frame = now;
   }
 }
 
-template <bool WITH_CRITICAL>
-const WideHierarchy& HierarchiesAmong<WITH_CRITICAL>::at(const Body& body, double coordinates) const {
+template <bool WithCritical>
+const WideHierarchy& HierarchiesAmong<WithCritical>::at(const Body& body, double coordinates) const {
   const auto& shape = body.prepared<ShapeComplex>();
   const double least_wing = LEAST_WING / LARGEST_RATIO * coordinates;
-  if (least_wing <= LEAST_WING * shape.regions.extent) return prepared_for_all<WITH_CRITICAL>(body);
+  if (least_wing <= LEAST_WING * shape.regions.extent) return prepared_for_all<WithCritical>(body);
   const std::lock_guard lock(*mutex_);
   if (!shortest_wing_) shortest_wing_ = shortest_wing(body.surface(), shape);
-  if (*shortest_wing_ > least_wing) return prepared_for_all<WITH_CRITICAL>(body);
+  if (*shortest_wing_ > least_wing) return prepared_for_all<WithCritical>(body);
   const int exponent = static_cast<int>(std::ceil(std::log2(coordinates)));
   std::unique_ptr<WideHierarchy>& made = made_[exponent];
-  if (!made) made = std::make_unique<WideHierarchy>(build_among<WITH_CRITICAL>(body, exponent));
+  if (!made) made = std::make_unique<WideHierarchy>(build_among<WithCritical>(body, exponent));
   return *made;
 }
 

@@ -14,8 +14,8 @@ namespace lmdbench {
 /// Hierarchies of a mesh among coordinates that are far larger than its own. There rounding turns a
 /// direction against short wings by more than POLAR_SLACK, though LEAST_WING counts them: caps
 /// leave more wings out (PROOF.md, lemma 3). Nearly no mesh has any that short.
-/// @tparam WITH_CRITICAL  over the features of a SignedHierarchy
-template <bool WITH_CRITICAL>
+/// @tparam WithCritical  over the features of a SignedHierarchy
+template <bool WithCritical>
 class HierarchiesAmong {
  public:
   static HierarchiesAmong of(const Body& body);
