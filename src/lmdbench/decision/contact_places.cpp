@@ -45,13 +45,10 @@ Vec3 ContactPlaces::nearest_place(const Contact& contact, const Vec3& q) const {
   double least = std::numeric_limits<double>::infinity();
   for (const ConvexPolygon& polygon : set_.pieces_of(contact)) {
     if (polygon.holds(x, 0.0)) return q;
-    for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
-      const Vec2 &from = polygon.corners[k], side = polygon.corners[(k + 1) % polygon.corners.size()] - from;
-      const Vec2 on_side = from + std::clamp((x - from).dot(side) / side.squaredNorm(), 0.0, 1.0) * side;
-      if ((on_side - x).norm() >= least) continue;
-      least = (on_side - x).norm();
-      nearest = on_side;
-    }
+    const Vec2 on_side = polygon.nearest_on_sides(x);
+    if ((on_side - x).norm() >= least) continue;
+    least = (on_side - x).norm();
+    nearest = on_side;
   }
   return q + frame.lifted(nearest) - frame.lifted(x);
 }

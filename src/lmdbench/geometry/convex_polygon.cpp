@@ -56,25 +56,29 @@ Box2 ConvexPolygon::box() const {
   return box;
 }
 
-namespace {
-
-/// From a point to the nearest side.
-double distance_to_sides(const ConvexPolygon& polygon, const Vec2& x) {
+Vec2 ConvexPolygon::nearest_on_sides(const Vec2& x) const {
+  LMDBENCH_EXPECTS(!corners.empty(), "a polygon of nothing");
+  Vec2 nearest = corners.front();
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
-    const Vec2 from = x - polygon.corners[k];
-    const Vec2 side = polygon.corners[(k + 1) % polygon.corners.size()] - polygon.corners[k];
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec2 &from = corners[k], side = corners[(k + 1) % corners.size()] - from;
     const double squared = side.squaredNorm();
-    const double share = squared > 0.0 ? std::clamp(from.dot(side) / squared, 0.0, 1.0) : 0.0;
-    least = std::min(least, (from - share * side).squaredNorm());
+    const double share = squared > 0.0 ? std::clamp((x - from).dot(side) / squared, 0.0, 1.0) : 0.0;
+    const Vec2 on_side = from + share * side;
+    if ((on_side - x).norm() >= least) continue;
+    least = (on_side - x).norm();
+    nearest = on_side;
   }
-  return std::sqrt(least);
+  return nearest;
 }
 
-/// How far a side of `a` keeps all of b away at least: the most over the sides; 0 where none does.
-double kept_away(const ConvexPolygon& a, std::span<const Vec2> b) {
+namespace {
+
+/// How far a side of `a` keeps all of b away at least: the most over the sides, or the first above
+/// `within`; 0 where none does.
+double kept_away(const ConvexPolygon& a, std::span<const Vec2> b, double within) {
   double most = 0.0;
-  for (std::size_t k = 0; k < a.corners.size(); ++k) {
+  for (std::size_t k = 0; k < a.corners.size() && most <= within; ++k) {
     const Vec2 side = a.corners[(k + 1) % a.corners.size()] - a.corners[k];
     double nearest = -std::numeric_limits<double>::infinity();
     for (const Vec2& x : b)
@@ -84,21 +88,28 @@ double kept_away(const ConvexPolygon& a, std::span<const Vec2> b) {
   return most;
 }
 
+/// Whether a point is no farther than `within` from some side.
+bool is_beside(const ConvexPolygon& polygon, const Vec2& x, double within) {
+  return (polygon.nearest_on_sides(x) - x).norm() <= within;
+}
+
 }  // namespace
 
 bool ConvexPolygon::holds(const Vec2& x, double within) const {
   LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
-  const double away = kept_away(*this, {&x, 1});
+  if (corners.empty()) return false;
+  const double away = kept_away(*this, {&x, 1}, within);
   // Beyond a sharp corner a point is farther off than its sides tell.
-  return !corners.empty() && (away == 0.0 || (away <= within && distance_to_sides(*this, x) <= within));
+  return away == 0.0 || (away <= within && is_beside(*this, x, within));
 }
 
 bool ConvexPolygon::touches(const ConvexPolygon& other, double within) const {
   LMDBENCH_EXPECTS(within >= 0.0, "a tolerance that is negative or not a number");
-  const double away = std::max(kept_away(*this, other.corners), kept_away(other, corners));
+  double away = kept_away(*this, other.corners, within);
+  if (away <= within) away = std::max(away, kept_away(other, corners, within));
   if (away == 0.0 || away > within) return away == 0.0;
   const auto is_near = [&](const ConvexPolygon& a, const ConvexPolygon& b) {
-    return std::ranges::any_of(b.corners, [&](const Vec2& x) { return distance_to_sides(a, x) <= within; });
+    return std::ranges::any_of(b.corners, [&](const Vec2& x) { return is_beside(a, x, within); });
   };
   return is_near(*this, other) || is_near(other, *this);
 }

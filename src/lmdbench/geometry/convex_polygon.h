@@ -86,6 +86,8 @@ struct ConvexPolygon {
   SegmentPart part_of(const Vec2& p, const Vec2& q, double within = 0.0) const;
   AreaAndCentroid measure() const { return area_and_centroid(corners); }
   Box2 box() const;
+  /// The point on a side nearest to x. @pre it has corners
+  Vec2 nearest_on_sides(const Vec2& x) const;
   /// Whether a point is no farther away than `within` [m].
   bool holds(const Vec2& x, double within) const;
   /// Whether the two are no farther apart than `within` [m].
