@@ -64,13 +64,15 @@ TEST(HostileScenes, AreSearchedWithoutLoss) {
 }
 
 /// Copies turned by as little as the tolerance about a place where they touch, whose edges have no
-/// sides, or sides as short as rounding: a pair of edges had two LMDs.
+/// sides, sides as short as rounding, or cross and are parallel to the tolerance: a pair of edges
+/// had two LMDs.
 TEST(HostileScenes, APairOfFeaturesHasOneLmd) {
   struct Found {
     std::uint64_t seed;
     std::size_t index, pose;
   };
-  for (const Found& found : {Found{777, 162, 14}, {777, 1708, 17}, {777, 2980, 2}, {779, 2616, 18}}) {
+  for (const Found& found :
+       {Found{777, 162, 14}, {777, 1708, 17}, {777, 2980, 2}, {779, 2616, 18}, {20261128, 1562, 19}}) {
     const GeneratedScene hostile = make_hostile_scene(Motion::NONE, found.seed, found.index);
     Exhaustive exhaustive(hostile.scene);
     const LmdSet truth = lmds_at(exhaustive, hostile.poses[found.pose]);
