@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/methods/registry.h>
 
 #include <gtest/gtest.h>
 #include <study/completeness/metamorphic.h>
