@@ -118,8 +118,8 @@ part() {
     passivity) study passivity ;;
     realtime) figure realtime --program "$BUILD/lmdbench" --out "$OUT" ;;
     recall)
-      study recall --moving bunny-16k --fixed bunny-16k --seed 2
-      study recall --moving armadillo --fixed bunny-16k --seed 2
+      study recall --moving bunny-16k --fixed bunny-16k --seed 2 | tee "$OUT/recall-bunny-bunny.md"
+      study recall --moving armadillo --fixed bunny-16k --seed 2 | tee "$OUT/recall-armadillo-bunny.md"
       ;;
     rivals) # needs scripts/packages_rivals.txt
       cmake -S experiments/rivals -B build/rivals >&2 && cmake --build build/rivals >&2

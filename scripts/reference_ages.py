@@ -41,11 +41,11 @@ def git(*arguments):
 
 
 def age(row):
-    """Commits since the row's newest one that changed the code that it measures; one more for changes that are not committed."""
+    """Commits since the row's oldest one that changed the code that it measures; one more for changes that are not committed."""
     commits = [git("log", "-1", "--format=%H", "--", f"results/reference/{row.files[0]}").stdout.strip() if commit == ADDED else commit
                for commit in row.commits]
     code = [f"{folder}/*.{ending}" for folder in row.folders for ending in ("cpp", "h", "def")]
-    since = min(int(git("rev-list", "--count", f"{commit}..HEAD", "--", *code).stdout or 0) for commit in commits)
+    since = max(int(git("rev-list", "--count", f"{commit}..HEAD", "--", *code).stdout or 0) for commit in commits)
     return since + (git("diff", "--quiet", "HEAD", "--", *code).returncode != 0)
 
 

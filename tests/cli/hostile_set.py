@@ -152,7 +152,8 @@ def main():
     ]
     everything = [content for each in formats for content in each.files]
     failures = 0
-    print(f"{'format':12} {'cases':>6} {'taken':>6} {'usage':>6} {'data':>6} {'env':>4} {'worst s':>8} failures")
+    print("| format | command | cases | taken | refused, 2 | refused, 3 | refused, 4 | crashed, hung, or without file or remedy |"
+          " longest [s of processor time] |\n" + "|---" * 9 + "|")
     for each in formats:
         if arguments.format and each.name not in arguments.format:
             continue
@@ -177,7 +178,8 @@ def main():
                     arguments.keep.mkdir(parents=True, exist_ok=True)
                     (arguments.keep / f"{each.name}-{case}.{each.suffix}").write_bytes(content)
         failures += bad
-        print(f"{each.name:12} {arguments.count:6} {codes[0]:6} {codes[2]:6} {codes[3]:6} {codes[4]:4} {worst:8.2f} {bad}",
+        command = " ".join(each.command[1:]).replace(meshes, "meshes")
+        print(f"| {each.name} | `{command}` | {arguments.count} | {codes[0]} | {codes[2]} | {codes[3]} | {codes[4]} | {bad} | {worst:.2f} |",
               flush=True)
     return 1 if failures else 0
 

@@ -12,7 +12,7 @@ import unittest.mock
 
 from cases import ROOT, Scratch, text_of
 import reference_ages
-from reference_ages import ADDED, FOLDER, age, git, rows, unmarked
+from reference_ages import ADDED, FOLDER, Row, age, git, rows, unmarked
 from reference_write import MOST_COLUMNS, name_commit, part_of, parts, places, renew, rows_of, tables_of, with_tables_of
 
 
@@ -62,6 +62,12 @@ class Register(unittest.TestCase):
     def test_what_is_older_than_its_code_says_so(self):
         self.whole_history()
         self.assertEqual(unmarked([(row, age(row)) for row in rows()]), [], "remedy: scripts/reference_ages.py --mark, or make them again")
+
+    def test_a_row_of_two_commits_is_as_old_as_the_older_one(self):
+        self.whole_history()
+        of = {commits: age(Row(f"| `a.md` | c | {commits} | lmd | |")) for commits in ("02e3e55", "02e3e55, HEAD", "HEAD, 02e3e55")}
+        self.assertGreater(of["02e3e55"], 0)
+        self.assertEqual(set(of.values()), {of["02e3e55"]})
 
 
 PAGE = """# Costs
