@@ -134,7 +134,7 @@ part() {
       ;;
     stability) figure stability --program "$BUILD/lmdbench" --out "$OUT" ;;
     stability-map)
-      study stability >"$OUT/stability-map.jsonl"
+      study stability experiments/stability/{box,wedge,peg,bunny}.json >"$OUT/stability-map.jsonl"
       figure stability_map "$OUT/stability-map.jsonl" --out "$OUT"
       ;;
     triangle_accuracy)
