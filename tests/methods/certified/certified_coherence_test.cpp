@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/contact_tolerance.h>
 #include <lmdbench/decision/decide.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/decide/filter.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <gtest/gtest.h>
 #include <support/scenes.h>
@@ -171,15 +173,19 @@ TEST(CertifiedCoherence, AJumpLeavesNoWorkBehind) {
 
 TEST(CertifiedCoherence, NoFrameOfASmoothMotionIsMadeAnew) {
   // The largest coordinate passes 1: tolerances depend on it, but must not end kept results.
-  const Scene scene = make_scene(make_blob(0.35, 0.02, 4), make_blob(0.35, 0.02, 4), 0.05);
+  const Scene scene = make_scene(make_blob(0.28, 0.02, 4), make_blob(0.28, 0.02, 4), 0.04);
+  const Body &moving = *scene.moving, &fixed = scene.fixed_body();
   Certified coherent(scene), scratch(scene, {.frame_coherence = false});
   LmdSet ignored;
   std::uint64_t most_kept = 0, least_fresh = std::numeric_limits<std::uint64_t>::max();
   double least_coordinate = 2.0, largest_coordinate = 0.0;
   for (int frame = 0; frame < 300; ++frame) {
     const double angle = 0.25 * std::numbers::pi - 0.0025 * frame;
-    const Pose pose{0.73 * Vec3(std::cos(angle), std::sin(angle), 0.0), Eigen::Quaterniond::Identity()};
-    const double coordinate = pose.translation.cwiseAbs().maxCoeff() + 0.37;
+    const Pose pose{0.59 * Vec3(std::cos(angle), std::sin(angle), 0.0), Eigen::Quaterniond::Identity()};
+    const double coordinate = ContactTolerance::of(moving.surface(), moving.prepared<ShapeComplex>(),
+                                                   fixed.surface(), fixed.prepared<ShapeComplex>(),
+                                                   RigidTransform(pose), scene.cutoff)
+                                  .coordinates;
     least_coordinate = std::min(least_coordinate, coordinate);
     largest_coordinate = std::max(largest_coordinate, coordinate);
     WorkCounters of_kept, of_fresh;

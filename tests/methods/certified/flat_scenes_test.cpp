@@ -219,6 +219,19 @@ TEST(FlatScenes, FloorAndWallAtOneDistanceAreTwoContacts) {
   EXPECT_EQ(corner.found(), 2u);
 }
 
+TEST(FlatScenes, ACornerHasAContactAnywhereOverALongFace) {
+  // Above the box of the face's region, which is longer one way or the other.
+  const Eigen::Quaterniond corner_down = Eigen::Quaterniond::FromTwoVectors(Vec3::Ones(), -Vec3::UnitZ());
+  const double height = 0.05 + 0.01 * std::numbers::sqrt3 + 0.01;
+  for (const Vec3& along : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
+    const Vec3 size = 0.9 * along + Vec3::Constant(0.1);
+    FlatComparison corner(make_scene(make_box({0.02, 0.02, 0.02}, 1), make_box(size, 2), 0.02));
+    for (int i = -4; i <= 4; ++i)
+      corner.check({0.11 * i * along + Vec3(0.013, 0.017, height), corner_down});
+    EXPECT_EQ(corner.found(), 9u);
+  }
+}
+
 TEST(FlatScenes, RoundedBoxesAtGapsDownToTouch) {
   std::mt19937_64 random(12);
   const auto file = [](TriangleMesh mesh, std::uint64_t seed) {
