@@ -159,7 +159,7 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   // The disc turns until the point is that far above the rim; from then on it is inside the cone.
   const double turn = std::atan(BESIDE / std::tan(CONE));
   WideForecast forecast;
-  forecast.spin = 1e-6F;
+  forecast.spin = 1e-5F;  // The turn takes fewer frames than the longest plan.
   forecast.search_distance = 0.01F;
   forecast.extent = 4.0F;
   for (const bool moving_lanes : {false, true}) {
