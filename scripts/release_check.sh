@@ -2,10 +2,9 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 # All claims of the project at one commit, part by part; a new call continues, on another day or
-# machine too. The commit is the last one that changed more than pages, results and what only calls
-# the programs (reference*, this script), so that what was measured can be committed. Leaves
-# results/release/COMMIT/PART.txt (the part's output, not committed), PART.verdict and page.md.
-# Exit code 1 if a part failed or is missing.
+# machine too. The commit is the last one that changed more than pages and results, so that what was
+# measured can be committed. Leaves results/release/COMMIT/PART.txt (the part's output, not
+# committed), PART.verdict and page.md. Exit code 1 if a part failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -90,7 +89,7 @@ for name in "${chosen[@]}"; do
 done
 [[ -z "$(git status --porcelain -- . ':!results/release')" ]] || # where verdicts of an earlier call are
   die 2 "the tree differs from its commit (remedy: commit or stash; 'git status' shows what)"
-COMMIT="$(git log -1 --format=%h -- . ':!results' ':!*.md' ':!scripts/reference*' ':!scripts/release_check.sh')"
+COMMIT="$(git log -1 --format=%h -- . ':!results' ':!*.md')"
 OUT="$ROOT/results/release/$COMMIT"
 mkdir -p "$OUT"
 
