@@ -182,10 +182,10 @@ TEST(CertifiedCoherence, NoFrameOfASmoothMotionIsMadeAnew) {
   for (int frame = 0; frame < 300; ++frame) {
     const double angle = 0.25 * std::numbers::pi - 0.0025 * frame;
     const Pose pose{0.59 * Vec3(std::cos(angle), std::sin(angle), 0.0), Eigen::Quaterniond::Identity()};
-    const double coordinate = ContactTolerance::of(moving.surface(), moving.prepared<ShapeComplex>(),
-                                                   fixed.surface(), fixed.prepared<ShapeComplex>(),
-                                                   RigidTransform(pose), scene.cutoff)
-                                  .coordinates;
+    const double coordinate =
+        ContactTolerance::of(moving.surface(), moving.prepared<ShapeComplex>(), fixed.surface(),
+                             fixed.prepared<ShapeComplex>(), RigidTransform(pose), scene.cutoff)
+            .coordinates;
     least_coordinate = std::min(least_coordinate, coordinate);
     largest_coordinate = std::max(largest_coordinate, coordinate);
     WorkCounters of_kept, of_fresh;

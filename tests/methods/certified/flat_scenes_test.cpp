@@ -226,8 +226,7 @@ TEST(FlatScenes, ACornerHasAContactAnywhereOverALongFace) {
   for (const Vec3& along : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
     const Vec3 size = 0.9 * along + Vec3::Constant(0.1);
     FlatComparison corner(make_scene(make_box({0.02, 0.02, 0.02}, 1), make_box(size, 2), 0.02));
-    for (int i = -4; i <= 4; ++i)
-      corner.check({0.11 * i * along + Vec3(0.013, 0.017, height), corner_down});
+    for (int i = -4; i <= 4; ++i) corner.check({0.11 * i * along + Vec3(0.013, 0.017, height), corner_down});
     EXPECT_EQ(corner.found(), 9u);
   }
 }

@@ -172,7 +172,8 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
     EXPECT_EQ(result.lmd, 0u);
     const double forecast_turn = static_cast<double>(forecast.spin) * static_cast<double>(result.frames);
     // What is left for deviations may be a turn as well.
-    const double any_turn = static_cast<double>(result.deviation_budget) / static_cast<double>(forecast.extent);
+    const double any_turn =
+        static_cast<double>(result.deviation_budget) / static_cast<double>(forecast.extent);
     EXPECT_LE(forecast_turn + any_turn, turn);
     EXPECT_GT(forecast_turn, 0.3 * turn);
   }
