@@ -2,9 +2,11 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 # All claims of the project at one commit, part by part; a new call continues, on another day or
-# machine too. The commit is the last one that changed more than pages and results, so that what was
-# measured can be committed. Leaves results/release/COMMIT/PART.txt (the part's output, not
-# committed), PART.verdict and page.md. Exit code 1 if a part failed or is missing.
+# machine too. A part's commit is the last one that changed what the part may read: no page and no
+# result, so that what was measured can be committed, and for studies, fuzzing and tables no test,
+# so that a better test leaves them valid. Leaves results/release/COMMIT/PART.txt (the output, not
+# committed) and PART.verdict, and page.md in the newest of these folders, which ends with what
+# stands in results/release/notes.md. Exit code 1 if a part failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -40,6 +42,16 @@ study() { build_preset release >&2 && build/release/lmdbench-study "$@" --seed "
 # Some studies begin by meshes that are fetched.
 all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; }
 
+# commit_of PART: the last one that changed what the part may read.
+commit_of() {
+  local -a unread=(':!results' ':!*.md')
+  case $1 in
+  completeness | hostile | parts | solids | shapes | metamorphic | rest | fuzz-* | reference)
+    unread+=(':!tests/*_test.cpp' ':!scripts/mutants.txt')
+    ;;
+  esac
+  git log -1 --format=%h -- . "${unread[@]}"
+}
 # What a part was asked for, beside its name.
 conditions() {
   case $1 in
@@ -89,19 +101,21 @@ for name in "${chosen[@]}"; do
 done
 [[ -z "$(git status --porcelain -- . ':!results/release')" ]] || # where verdicts of an earlier call are
   die 2 "the tree differs from its commit (remedy: commit or stash; 'git status' shows what)"
-COMMIT="$(git log -1 --format=%h -- . ':!results' ':!*.md')"
-OUT="$ROOT/results/release/$COMMIT"
-mkdir -p "$OUT"
+OUT="$ROOT/results/release"
+COMMIT="$(commit_of all)"
+mkdir -p "$OUT/$COMMIT"
 
 for name in "${chosen[@]}"; do
-  (($# == 0)) && [[ -s $OUT/$name.verdict ]] && continue
+  made="$OUT/$(commit_of "$name")/$name"
+  (($# == 0)) && [[ -s $made.verdict ]] && continue
   say "== $name"
+  mkdir -p "${made%/*}"
   started=$EPOCHREALTIME status=0
-  (part "$name") >"$OUT/$name.txt" 2>&1 || status=$?
+  (part "$name") >"$made.txt" 2>&1 || status=$?
   # What ctest counts stands above the tests that it skipped.
-  last="$( (grep -a '% tests passed' "$OUT/$name.txt" || grep -av '^[[:space:]]*$' "$OUT/$name.txt") | tail -n 1 | tr '|' '/' | cut -c1-120)"
+  last="$( (grep -a '% tests passed' "$made.txt" || grep -av '^[[:space:]]*$' "$made.txt") | tail -n 1 | tr '|' '/' | cut -c1-120)"
   printf '%s|%s|%s|%s|%s|%s\n' "$status" "$(seconds_since "$started")" "$(date +%F)" "$MACHINE" "$(conditions "$name")" "$last" \
-    >"$OUT/$name.verdict"
+    >"$made.verdict"
   say "   exit code $status, $(seconds_since "$started")"
 done
 
@@ -109,15 +123,18 @@ failed=0
 {
   # shellcheck disable=SC2016  # code spans, no commands
   printf '# lmdbench at %s\n\nMade by `scripts/release_check.sh`, part by part.\n\n' "$COMMIT"
-  printf '| part | verdict | time | date | machine | conditions | last line |\n|---|---|---|---|---|---|---|\n'
+  printf '| part | at | verdict | time | date | machine | conditions | last line |\n|---|---|---|---|---|---|---|---|\n'
   for name in "${PARTS[@]}"; do
     status=missing
     seconds="" day="" machine="" asked="" last=""
-    [[ ! -s $OUT/$name.verdict ]] || IFS='|' read -r status seconds day machine asked last <"$OUT/$name.verdict"
+    at="$(commit_of "$name")"
+    made="$OUT/$at/$name.verdict"
+    [[ ! -s $made ]] || IFS='|' read -r status seconds day machine asked last <"$made"
     case $status in 0) verdict="passed" ;; missing) verdict="not run" ;; *) verdict="FAILED ($status)" ;; esac
     [[ $status == 0 ]] || failed=1
-    printf '| %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$verdict" "$seconds" "$day" "$machine" "$asked" "$last"
+    printf '| %s | %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$at" "$verdict" "$seconds" "$day" "$machine" "$asked" "$last"
   done
-} >"$OUT/page.md"
-cat "$OUT/page.md"
+  [[ ! -s $OUT/notes.md ]] || { echo && cat "$OUT/notes.md"; }
+} >"$OUT/$COMMIT/page.md"
+cat "$OUT/$COMMIT/page.md"
 exit "$failed"
