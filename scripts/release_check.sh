@@ -36,7 +36,8 @@ in_fresh_clone() {
   rm -rf "$clone"
   return "$status"
 }
-# of_each N: poses of each of N kinds that make POSES in all.
+# of_each N: poses of each of N kinds (pairs of shapes in each of their coordinates) that make POSES
+# in all.
 of_each() { echo $(((POSES + $1 - 1) / $1)); }
 study() { build_preset release >&2 && build/release/lmdbench-study "$@" --seed "$SEED"; }
 # Some studies begin by meshes that are fetched.
@@ -75,9 +76,11 @@ part() {
   mutants-*) scripts/mutants.sh --share "${1#*-}/6" --keep ;;
   completeness) all_meshes && study completeness --poses 1000 ;;
   hostile) study hostile --poses "$((POSES / 2))" --frames "$((POSES / 2))" ;;
-  parts | solids | shapes) study parts --generator "$1" --poses "$(of_each 20)" ;;
-  metamorphic) study metamorphic --poses "$(of_each 35)" ;;
-  rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 35)" --seed "$SEED" ;;
+  parts) study parts --poses "$(of_each 236)" ;;
+  solids) study parts --generator solids --poses "$(of_each 12)" ;;
+  shapes) study parts --generator shapes --poses "$(of_each 72)" ;;
+  metamorphic) study metamorphic --poses "$(of_each 370)" ;; # 37 kinds, ten changes of each pose
+  rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 37)" --seed "$SEED" ;;
   fuzz-readers) scripts/fuzz.sh "$(((FUZZ_MINUTES * 2 / 3 + ${#READERS[@]} - 1) / ${#READERS[@]}))" "${READERS[@]}" ;;
   fuzz-lmd) scripts/fuzz.sh "$(((FUZZ_MINUTES + 2) / 3))" lmd ;; # what all methods need
   regression)
