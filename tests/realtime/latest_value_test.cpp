@@ -32,6 +32,11 @@ TEST(LatestValue, TheLatestIsFetchedOnce) {
   value.publish();
   EXPECT_TRUE(value.fetch());
   EXPECT_EQ(value.value(), 4);
+  value.slot() = 5;
+  value.publish();
+  value.slot() = 6;
+  EXPECT_TRUE(value.fetch());
+  EXPECT_EQ(value.value(), 5) << "not what is being written";
 }
 
 /// A value that tells whether it is whole.

@@ -508,18 +508,31 @@ TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
   EXPECT_GE(behind.found(), 20u);
 }
 
-/// Open sheets face to face in one plane, beside and on each other: no walls at their borders would
-/// be asked as well.
+/// An open square in the plane z = 0. No walls at its border would be asked as well.
+TriangleMesh square() {
+  return {{{-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0}}, {{0, 1, 2}, {0, 2, 3}}};
+}
+const Eigen::Quaterniond TURNED_OVER(0.0, 1.0, 0.0, 0.0);
+
 TEST(FlatScenes, SheetsInOnePlaneMeetAlongTheirBorders) {
-  TriangleMesh sheet;
-  sheet.vertices = {{-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0}};
-  sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-  FlatComparison sheets(make_scene(sheet, sheet, 0.01));
-  const Eigen::Quaterniond over(0.0, 1.0, 0.0, 0.0);
+  FlatComparison sheets(make_scene(square(), square(), 0.01));
   for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.0})
     for (const double y : {-1.0, 0.0, 0.5, 1.0})
-      for (const double gap : {0.0, 1e-15, 0.005}) sheets.check({Vec3(x, y, gap), over});
+      for (const double gap : {0.0, 1e-15, 0.005}) sheets.check({Vec3(x, y, gap), TURNED_OVER});
   EXPECT_EQ(sheets.found(), 60u);
+}
+
+TEST(FlatScenes, ACornerOfASheetMeetsABorder) {
+  // Of either sheet.
+  const Eigen::Quaterniond turned = TURNED_OVER * Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitZ());
+  FlatComparison sheets(make_scene(square(), square(), 0.01));
+  for (const double gap : {0.0, 1e-15, 1e-12, 0.005})
+    for (const double overlap : {-1e-15, 0.0, 1e-15, 1e-13}) {
+      const Pose corner{Vec3(0.5 + 0.5 * std::numbers::sqrt2 - overlap, 0.1, gap), turned};
+      sheets.check(corner);
+      sheets.check(corner.inverse());
+    }
+  EXPECT_EQ(sheets.found(), 32u);
 }
 
 /// From rounding to beyond the tolerance: faces over faces, edge over face, edges along edges.

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <random>
 #include <set>
@@ -153,13 +154,19 @@ std::vector<FeatureId> visit_lanes(
 void expect_owns_and_bounds(const WideHierarchy& hierarchy, const Surface& surface,
                             const ShapeComplex* shape) {
   ASSERT_TRUE(bounds_what_is_below(hierarchy, surface, shape));
+  std::map<FeatureId, std::vector<Vec3>> extremes;  // Each is asked of every lane above it.
+  const auto extremes_of = [&](const FeatureId& feature) -> const std::vector<Vec3>& {
+    const auto [place, is_new] = extremes.try_emplace(feature);
+    if (is_new) place->second = extreme_directions(surface, feature);
+    return place->second;
+  };
   const auto check = [&](std::uint32_t node_index, std::size_t lane, const std::vector<FeatureId>& below) {
     const WideNode& node = hierarchy.nodes[node_index];
     const Vec3 axis = axis_of_lane(node, static_cast<std::uint32_t>(lane));
     // With a shape, the wings of a corner are not its edges.
     if (axis.isZero(0.0) || (shape != nullptr && shape->is_joined)) return;
     for (const FeatureId& feature : below)
-      for (const Vec3& direction : extreme_directions(surface, feature))
+      for (const Vec3& direction : extremes_of(feature))
         ASSERT_GE(direction.dot(axis), static_cast<double>(node.cosine[lane]));
   };
   std::vector<FeatureId> owned = visit_lanes(hierarchy, 0, check);
