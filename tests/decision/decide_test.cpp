@@ -469,8 +469,10 @@ TEST(PolarCondition, NoDirectionIsKnownFarFromTheOneInCommon) {
   ASSERT_TRUE(near);
   EXPECT_NEAR(near->u.z(), -1.0, 1e-12);
   EXPECT_FALSE(common(5.0));
-  EXPECT_FALSE(common_direction(pair.moving, f, pair.fixed, g, Vec3::UnitX(), error, {1e-15, 0.0}, 1e-12))
-      << "of none";
+  ShapeScene apart(ridge(1.0), ridge(1.0));
+  const ShapePair other = apart.at(Pose{});
+  EXPECT_FALSE(common_direction(other.moving, f, other.fixed, f, -Vec3::UnitZ(), error, {1e-15, 0.0}, 1e-12))
+      << "one from below and one from above";
 }
 
 /// The fans of a vertex are a fact of the mesh. A decision that counted them again would look at
