@@ -48,7 +48,7 @@ commit_of() {
   local -a unread=(':!results' ':!*.md')
   case $1 in
   completeness | hostile | parts | solids | shapes | metamorphic | rest | fuzz-* | reference)
-    unread+=(':!tests/*_test.cpp' ':!scripts/mutants.txt')
+    unread+=(':!*_test.cpp' ':!scripts/mutants.txt')
     ;;
   esac
   git log -1 --format=%h -- . "${unread[@]}"

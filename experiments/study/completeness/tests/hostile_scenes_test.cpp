@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <study/completeness/hostile_meshes.h>
 #include <study/completeness/hostile_scenes.h>
+#include <support/parts/rest_fits.h>
 
 #include <algorithm>
 #include <set>
@@ -108,6 +109,26 @@ TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {
     }
   }
   EXPECT_GT(contacts, 20u);
+}
+
+/// Faces of parts that rest in each other are joined by what touches several of them.
+TEST(HostileScenes, FacesOfACrossHalvingKeepTheirDirections) {
+  for (const std::size_t index : {0, 6}) {
+    const parts::RestScene scene = make_rest_scene(parts::rest_fit("cross halving"), 1, index);
+    LmdSet lmds;
+    WorkCounters counters;
+    Exhaustive(scene.scene).search(scene.X_WM, lmds, counters);
+    std::size_t demanded = 0;
+    for (const parts::RestPlace& place : scene.places) {
+      if (!place.demanded) continue;
+      ++demanded;
+      const Vec3 direction = scene.X_WD.rotation * place.direction;
+      EXPECT_TRUE(std::ranges::any_of(
+          lmds, [&](const Lmd& lmd) { return (lmd.direction - direction).norm() < 1e-6; }))
+          << direction.transpose() << ": " << scene.text;
+    }
+    EXPECT_GE(demanded, 3u);
+  }
 }
 
 }  // namespace
