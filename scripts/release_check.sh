@@ -5,8 +5,8 @@
 # machine too. A part's commit is the last one that changed what the part may read: no page and no
 # result, so that what was measured can be committed, and for studies, fuzzing and tables no test,
 # so that a better test leaves them valid. Leaves results/release/COMMIT/PART.txt (the output, not
-# committed) and PART.verdict, and page.md in the newest of these folders, which ends with what
-# stands in results/release/notes.md. Exit code 1 if a part failed or is missing.
+# committed) and PART.verdict, and page.md in the newest of these folders. Exit code 1 if a part
+# failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -137,7 +137,7 @@ failed=0
     [[ $status == 0 ]] || failed=1
     printf '| %s | %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$at" "$verdict" "$seconds" "$day" "$machine" "$asked" "$last"
   done
-  [[ ! -s $OUT/notes.md ]] || { echo && cat "$OUT/notes.md"; }
+  printf '\nWhat was found on the way: [notes](../notes.md).\n'
 } >"$OUT/$COMMIT/page.md"
 cat "$OUT/$COMMIT/page.md"
 exit "$failed"

@@ -442,37 +442,26 @@ TEST(PolarCondition, AnEdgeWithoutSidesLeavesItsDirectionOpen) {
 /// Two ridges that nearly follow each other have one direction in common. Directions far beside it
 /// still lie within a small error of both cones.
 TEST(PolarCondition, NoDirectionIsKnownFarFromTheOneInCommon) {
-  const auto ridge = [](double slope) {
-    return TriangleMesh{
-        {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 1, slope), Vec3(1, 1, slope), Vec3(-1, -1, slope),
-         Vec3(1, -1, slope)},
-        slope < 0.0 ? std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {1, 3, 2}, {1, 0, 4}, {5, 1, 4}}
-                    : std::vector<std::array<std::int32_t, 3>>{{1, 0, 2}, {3, 1, 2}, {0, 1, 4}, {1, 5, 4}}};
-  };
-  ShapeScene scene(ridge(1.0), ridge(-1.0));
-  const Vec3 along(std::cos(0.1), std::sin(0.1), 0.0);
-  const ShapePair pair = scene.at({Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(0.1, Vec3::UnitZ()))});
-  const auto chain = [](const Surface& surface, const ShapeComplex& shape) {
-    const auto& edges = surface.adjacency.edges;
-    for (std::size_t e = 0; e < edges.size(); ++e)
-      if (edges[e][0] + edges[e][1] == 1) return shape.chain_of(static_cast<std::int32_t>(e));
-    return -1;
-  };
-  const FeatureId f{FeatureKind::EDGE, chain(scene.moving(), scene.shape_moving())},
-      g{FeatureKind::EDGE, chain(scene.fixed(), scene.shape_fixed())};
+  const TriangleMesh ridge{
+      {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 1, -1), Vec3(1, 1, -1), Vec3(-1, -1, -1), Vec3(1, -1, -1)},
+      {{0, 1, 2}, {1, 3, 2}, {1, 0, 4}, {5, 1, 4}}};
+  ShapeScene scene(ridge, ridge);
+  const std::int32_t along_x = scene.moving().adjacency.triangle_edges[0][0];
+  const FeatureId chain{FeatureKind::EDGE, scene.shape_moving().chain_of(along_x)};
   const double error = 1e-3;
-  const auto common = [&](double off) {
-    const Vec3 u = Eigen::AngleAxisd(off * error, along) * Vec3(-Vec3::UnitZ());
-    return common_direction(pair.moving, f, pair.fixed, g, u, error, {1e-15, 0.0}, 1e-12);
+  const auto common = [&](const ShapePair& pair, const Vec3& u) {
+    return common_direction(pair.moving, chain, pair.fixed, chain, u, error, {1e-15, 0.0}, 1e-12);
   };
-  const auto near = common(3.0);
+  const Eigen::AngleAxisd turn(0.1, Vec3::UnitZ());
+  const ShapePair from_above = scene.at({Vec3::Zero(), turn * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)});
+  const auto beside = [&](double errors) {
+    return common(from_above, Eigen::AngleAxisd(errors * error, turn * Vec3::UnitX()) * Vec3(-Vec3::UnitZ()));
+  };
+  const auto near = beside(3.0);
   ASSERT_TRUE(near);
   EXPECT_NEAR(near->u.z(), -1.0, 1e-12);
-  EXPECT_FALSE(common(5.0));
-  ShapeScene apart(ridge(1.0), ridge(1.0));
-  const ShapePair other = apart.at(Pose{});
-  EXPECT_FALSE(common_direction(other.moving, f, other.fixed, f, -Vec3::UnitZ(), error, {1e-15, 0.0}, 1e-12))
-      << "one from below and one from above";
+  EXPECT_FALSE(beside(5.0));
+  EXPECT_FALSE(common(scene.at(Pose{}), -Vec3::UnitZ())) << "both from below";
 }
 
 /// The fans of a vertex are a fact of the mesh. A decision that counted them again would look at

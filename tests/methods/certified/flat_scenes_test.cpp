@@ -11,6 +11,7 @@
 #include <support/lmd_text.h>
 #include <support/rounded.h>
 #include <support/scenes.h>
+#include <support/sheets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -508,14 +509,15 @@ TEST(FlatScenes, BordersOfASheetThatTurnsAway) {
   EXPECT_GE(behind.found(), 20u);
 }
 
-/// An open square in the plane z = 0. No walls at its border would be asked as well.
-TriangleMesh square() {
-  return {{{-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0}}, {{0, 1, 2}, {0, 2, 3}}};
+/// Open squares in the plane z = 0: no walls at their borders would be asked as well.
+FlatComparison two_squares() {
+  const TriangleMesh square = testing::sheet_of({"#"}, 1.0);
+  return FlatComparison(make_scene(square, square, 0.01));
 }
 const Eigen::Quaterniond TURNED_OVER(0.0, 1.0, 0.0, 0.0);
 
 TEST(FlatScenes, SheetsInOnePlaneMeetAlongTheirBorders) {
-  FlatComparison sheets(make_scene(square(), square(), 0.01));
+  FlatComparison sheets = two_squares();
   for (const double x : {-1.0, -0.5, 0.0, 0.25, 1.0})
     for (const double y : {-1.0, 0.0, 0.5, 1.0})
       for (const double gap : {0.0, 1e-15, 0.005}) sheets.check({Vec3(x, y, gap), TURNED_OVER});
@@ -525,7 +527,7 @@ TEST(FlatScenes, SheetsInOnePlaneMeetAlongTheirBorders) {
 TEST(FlatScenes, ACornerOfASheetMeetsABorder) {
   // Of either sheet.
   const Eigen::Quaterniond turned = TURNED_OVER * Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitZ());
-  FlatComparison sheets(make_scene(square(), square(), 0.01));
+  FlatComparison sheets = two_squares();
   for (const double gap : {0.0, 1e-15, 1e-12, 0.005})
     for (const double overlap : {-1e-15, 0.0, 1e-15, 1e-13}) {
       const Pose corner{Vec3(0.5 + 0.5 * std::numbers::sqrt2 - overlap, 0.1, gap), turned};
