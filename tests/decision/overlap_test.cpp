@@ -246,6 +246,40 @@ TEST(Overlap, IsThatOfTheTrianglesWhereBordersLieOnEachOther) {
   EXPECT_GT(checked.parts, 40);
 }
 
+/// Turned by a rounding, a side that was level passes over all that is beside it in one thin row.
+TEST(Overlap, IsThatOfTheTrianglesUnderTurnsAsSmallAsRounding) {
+  const std::vector<TriangleMesh> sheets{comb(), perforated(), slits(), make_ring(0.5, 0.4, 20, 2)};
+  Checked checked;
+  const auto check = [&](std::size_t moving, std::size_t fixed, double x, double y, int quarters, double tiny,
+                         bool is_upside_down = false) {
+    ShapeScene scene(sheets[moving], sheets[fixed]);
+    Pose pose = in_plane(x, y, 0.5 * std::numbers::pi * quarters, is_upside_down);
+    pose.rotation = Eigen::AngleAxisd(tiny, Vec3::UnitZ()) * pose.rotation;
+    SCOPED_TRACE(::testing::Message() << moving << " on " << fixed << " at " << x << ", " << y
+                                      << " turned by " << quarters << " quarters and " << tiny);
+    check_overlap(scene.at(pose), region_towards(scene.shape_moving(), Vec3::UnitZ()),
+                  region_towards(scene.shape_fixed(), Vec3::UnitZ()), checked);
+  };
+  std::mt19937_64 random(3);
+  for (std::size_t moving = 0; moving < 3; ++moving)
+    for (std::size_t fixed = 0; fixed < 3; ++fixed)
+      for (int i = 0; i < 12; ++i) {
+        const auto odd = [&](std::uint64_t count) {  // Of 64ths: no border lies on another one.
+          return (2.0 * static_cast<double>(random() % count) + 1.0 - static_cast<double>(count)) / 64.0;
+        };
+        const double x = odd(34), y = odd(26) + 0.005;
+        const double tiny = std::exp2(-52.0 + 12.0 * uniform(random)) * (uniform(random) < 0.5 ? -1.0 : 1.0);
+        check(moving, fixed, x, y, static_cast<int>(random() % 4), tiny, i % 2 == 0);
+      }
+  // A wall crosses a nearly level side; corners of several pieces lie on one.
+  check(2, 1, -0.296875, -0.260625, 2, 7.675888611009714e-15);
+  check(3, 1, -0.234375, -0.22865910089049341, 2, 8.405424712921473e-15);
+  check(3, 2, -0.453125, -0.22889124978396855, 2, 8.742063849250986e-15);
+  check(3, 2, -0.234375, -0.32223289904771435, 2, -7.6013790105364426e-15, true);
+  check(1, 2, 0.296875, -0.29107793763818746, 2, 2.4215104173112952e-14);
+  EXPECT_GT(checked.several, 20);
+}
+
 TEST(Overlap, OfWhatIsApartIsNothingAndASliverAsWideAsRoundingIsNone) {
   ShapeScene scene(sheet_of({"##"}, 0.5), sheet_of({"##"}, 0.5));
   const auto parts_at = [&](double x) {

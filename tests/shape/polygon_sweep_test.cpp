@@ -93,6 +93,45 @@ TEST(ConvexPieces, AStarAndTwoIslands) {
   EXPECT_NEAR(area_of(pieces), 2.0 * one, 1e-12);
 }
 
+/// Parts of the overlap of polygons, the same whether both are mirrored or not.
+void expect_parts(std::size_t count, const std::vector<std::vector<Vec2>>& of_a,
+                  const std::vector<std::vector<Vec2>>& of_b, double tolerance) {
+  const auto sides_of = [](const std::vector<std::vector<Vec2>>& loops, bool is_mirrored) {
+    std::vector<PolygonSide> sides;
+    for (const std::vector<Vec2>& corners : loops)
+      for (const PolygonSide& side : loop(corners)) {
+        const auto mirrored = [](const Vec2& x) { return Vec2(-x[0], x[1]); };
+        sides.push_back(is_mirrored ? PolygonSide{mirrored(side.to), mirrored(side.from)} : side);
+      }
+    return sides;
+  };
+  for (const bool is_mirrored : {false, true})
+    EXPECT_EQ(shared_parts(sides_of(of_a, is_mirrored), sides_of(of_b, is_mirrored), tolerance).size(), count)
+        << (is_mirrored ? "mirrored" : "as drawn");
+}
+
+std::vector<Vec2> box(double left, double bottom, double right, double top) {
+  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
+}
+
+TEST(SharedParts, ANearlyLevelSidePassesOverWallsInOneRow) {
+  // Its middle lies in a wall, in a row that is thinner than two tolerances.
+  expect_parts(3, {{{0.0, 0.0}, {10.0, 0.0}, {10.0, 1.02}, {0.0, 1.0}}},
+               {box(1.0, 0.5, 2.0, 2.0), box(2.2, 0.5, 4.5, 2.0), box(8.0, 0.5, 9.0, 2.0)}, 0.01);
+}
+
+TEST(SharedParts, ASideAsLevelAsTheToleranceMayCrossARow) {
+  // The corners of the left tooth's top are in two rows, for another corner is just below.
+  expect_parts(2, {{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.009}}, box(2.0, 0.0, 3.0, 3.0)},
+               {{{-1.0, 0.5}, {4.0, 0.5}, {4.0, 2.5}, {-1.0, 2.5}, {-1.0, 0.995}}}, 0.01);
+}
+
+TEST(SharedParts, WhatIsApartByARowAsThinAsTheToleranceIsOne) {
+  expect_parts(1, {box(0.0, 0.0, 1.0, 1.0), box(0.0, 1.015, 1.0, 2.0)}, {box(-1.0, -1.0, 3.0, 3.0)}, 0.01);
+  expect_parts(2, {box(0.0, 0.0, 1.0, 1.0), box(0.0, 1.05, 1.0, 2.0)}, {box(-1.0, -1.0, 3.0, 3.0)}, 0.01);
+  expect_parts(2, {box(0.0, 0.0, 1.0, 1.0), box(2.0, 1.015, 3.0, 2.0)}, {box(-1.0, -1.0, 4.0, 3.0)}, 0.01);
+}
+
 TEST(RegionShape, OutlinesAreTheTrianglesTogether) {
   for (TriangleMesh mesh : {make_box(Vec3(1.0, 0.6, 0.3), 5), make_l_block(1.0), make_patch(1.0, 6, 0.0)}) {
     const Surface surface = build_surface(testing::turned(std::move(mesh), 9));

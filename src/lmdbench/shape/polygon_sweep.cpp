@@ -22,6 +22,10 @@ namespace {
 constexpr double SLOPE_ROUNDING = 1e-9;
 /// Most distance of the ends of a piece and its continuation, in tolerances.
 constexpr double CONTINUATION = 4.0;
+/// Keeps slopes finite.
+constexpr double STEEPEST = std::numeric_limits<double>::max();
+/// Times as steep is a side whose place is known better than that of a nearly level one.
+constexpr double STEEPER = 2.0;
 
 /// A side that is not level, from its lower to its upper end.
 struct Climb {
@@ -29,13 +33,18 @@ struct Climb {
   int winding;        ///< Winding number to its right less that to its left.
   std::size_t owner;  ///< Index of its polygon.
   double slope;
+  std::size_t first_row = 0, end_row = 0;  ///< Rows that it crosses: [first_row, end_row).
 
   Climb(const PolygonSide& side, std::size_t of)
       : low(side.from), high(side.to), winding(side.from[1] < side.to[1] ? -1 : 1), owner(of) {
     if (winding > 0) std::swap(low, high);
-    slope = (high[0] - low[0]) / (high[1] - low[1]);
+    slope = std::clamp((high[0] - low[0]) / (high[1] - low[1]), -STEEPEST, STEEPEST);
   }
-  double x_at(double y) const { return low[0] + slope * (y - low[1]); }
+  /// Not beyond its ends, from which rounding may lead far where it is nearly level.
+  double x_at(double y) const {
+    const auto [least, greatest] = std::minmax(low[0], high[0]);
+    return std::clamp(low[0] + slope * (y - low[1]), least, greatest);
+  }
 };
 
 /// A side in a row, and its place at the row's middle.
@@ -55,7 +64,7 @@ struct OpenPiece {
 
   const Climb *left, *right;  ///< The sides at its top.
   double left_slope, right_slope;
-  double left_x, right_x;  ///< At the top.
+  double left_x, right_x, top;  ///< At the top; its height.
   std::size_t part = 0;
   std::size_t outline = NONE;  ///< NONE once it has grown.
 };
@@ -70,29 +79,22 @@ class Sweep {
     for (std::size_t owner = 0; owner < owners_; ++owner)
       for (const PolygonSide& side : polygons[owner]) {
         heights_.push_back(side.from[1]);
-        if (std::abs(side.from[1] - side.to[1]) > tolerance) climbs_.emplace_back(side, owner);
+        if (side.from[1] != side.to[1]) climbs_.emplace_back(side, owner);
       }
-    std::stable_sort(climbs_.begin(), climbs_.end(),
-                     [](const Climb& a, const Climb& b) { return a.low[1] < b.low[1]; });
+    std::ranges::stable_sort(climbs_, {}, [](const Climb& climb) { return climb.low[1]; });
     if (owners_ == 2) add_crossings();
-    std::sort(heights_.begin(), heights_.end());
+    find_rows();
   }
 
   /// The pieces by part.
   std::vector<SharedPart> run() {
     std::size_t next = 0;
     std::vector<Active> active;
-    for (std::size_t i = 0; i + 1 < heights_.size();) {
-      // The next height that is not level with this one.
-      std::size_t j = i + 1;
-      while (j < heights_.size() && heights_[j] - heights_[i] <= tolerance_) ++j;
-      if (j == heights_.size()) break;
-      const double bottom = heights_[i], top = heights_[j];
-      for (; next < climbs_.size() && climbs_[next].low[1] <= bottom + tolerance_; ++next)
+    for (std::size_t i = 0; i + 1 < heights_.size(); ++i) {
+      for (; next < climbs_.size() && climbs_[next].first_row <= i; ++next)
         active.push_back({&climbs_[next], 0.0});
-      std::erase_if(active, [&](const Active& side) { return side.climb->high[1] <= bottom + tolerance_; });
-      row(active, bottom, top);
-      i = j;
+      std::erase_if(active, [&](const Active& side) { return side.climb->end_row <= i; });
+      row(active, heights_[i], heights_[i + 1]);
     }
     for (const OpenPiece& piece : open_) close(piece);
     return grouped();
@@ -116,6 +118,24 @@ class Sweep {
     }
   }
 
+  /// Leaves of the heights those at which rows begin, which differ by more than the tolerance, and
+  /// of the climbs those that cross a row. A corner belongs to one row for all of its sides, so
+  /// winding numbers add up in every row.
+  void find_rows() {
+    std::ranges::sort(heights_);
+    heights_.erase(std::unique(heights_.begin(), heights_.end(),
+                               [&](double first, double other) { return other - first <= tolerance_; }),
+                   heights_.end());
+    const auto row_of = [&](double y) {
+      return static_cast<std::size_t>(std::ranges::upper_bound(heights_, y) - heights_.begin()) - 1;
+    };
+    for (Climb& climb : climbs_) {
+      climb.first_row = row_of(climb.low[1]);
+      climb.end_row = row_of(climb.high[1]);
+    }
+    std::erase_if(climbs_, [](const Climb& climb) { return climb.first_row == climb.end_row; });
+  }
+
   void row(std::vector<Active>& active, double bottom, double top) {
     const double middle = 0.5 * (bottom + top);
     // Nearly sorted: the order of the row below.
@@ -127,32 +147,62 @@ class Sweep {
     }
     before_.swap(open_);
     open_.clear();
+    if (!ended_.empty()) {
+      before_.insert(before_.end(), ended_.begin(), ended_.end());
+      std::ranges::sort(before_, {}, &OpenPiece::left_x);
+      ended_.clear();
+    }
     first_before_ = 0;
     std::array<int, 2> winding{0, owners_ == 1 ? 1 : 0};
-    const Climb* left = nullptr;
-    for (const auto& [climb, x] : active) {
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      const Climb& climb = *active[k].climb;
       const bool was_inside = winding[0] > 0 && winding[1] > 0;
-      winding[climb->owner] += climb->winding;
+      winding[climb.owner] += climb.winding;
       const bool is_inside = winding[0] > 0 && winding[1] > 0;
-      if (!was_inside && is_inside) left = climb;
-      if (was_inside && !is_inside) trapezoid(*left, *climb, bottom, top);
+      if (!was_inside && is_inside) left = k;
+      if (was_inside && !is_inside) trapezoid(active, left, k, bottom, top);
     }
-    for (const OpenPiece& piece : before_) close(piece);
+    for (OpenPiece& piece : before_) {
+      close(piece);
+      piece.outline = OpenPiece::NONE;
+      if (top - piece.top <= CONTINUATION * tolerance_) ended_.push_back(piece);
+    }
     before_.clear();
   }
 
-  /// Places of two sides at a height. A nearly level side is inaccurate there: where the two seem
+  /// Places of two sides at a height. A nearly level side is inaccurate there, in a thin row by
+  /// all its length: it stays between the steeper ones beside it, and where the two seem
   /// to have crossed, the steeper one counts.
-  static std::pair<double, double> ends_at(const Climb& left, const Climb& right, double y) {
-    const double from = left.x_at(y), to = right.x_at(y);
+  static std::pair<double, double> ends_at(std::span<const Active> row, std::size_t left, std::size_t right,
+                                           double y) {
+    const auto flatness = [&](std::size_t k) { return std::abs(row[k].climb->slope); };
+    const auto is_beside = [&](std::size_t k, std::size_t level) {
+      return STEEPER * flatness(k) < flatness(level);
+    };
+    double from = row[left].climb->x_at(y), to = row[right].climb->x_at(y);
+    if (flatness(left) > CONTINUATION)
+      for (std::size_t k = left; k-- > 0;)
+        if (is_beside(k, left)) {
+          from = std::max(from, row[k].climb->x_at(y));
+          break;
+        }
+    if (flatness(right) > CONTINUATION)
+      for (std::size_t k = right + 1; k < row.size(); ++k)
+        if (is_beside(k, right)) {
+          to = std::min(to, row[k].climb->x_at(y));
+          break;
+        }
     if (from <= to) return {from, to};
-    const double x = std::abs(left.slope) < std::abs(right.slope) ? from : to;
+    const double x = flatness(left) < flatness(right) ? from : to;
     return {x, x};
   }
 
-  void trapezoid(const Climb& left, const Climb& right, double bottom, double top) {
-    const auto [bottom_from, bottom_to] = ends_at(left, right, bottom);
-    const auto [top_from, top_to] = ends_at(left, right, top);
+  void trapezoid(std::span<const Active> row, std::size_t left_at, std::size_t right_at, double bottom,
+                 double top) {
+    const Climb &left = *row[left_at].climb, &right = *row[right_at].climb;
+    const auto [bottom_from, bottom_to] = ends_at(row, left_at, right_at, bottom);
+    const auto [top_from, top_to] = ends_at(row, left_at, right_at, top);
     const Vec2 left_bottom(bottom_from, bottom), left_top(top_from, top);
     const Vec2 right_bottom(bottom_to, bottom), right_top(top_to, top);
     if (owners_ == 2 && right_bottom[0] - left_bottom[0] <= tolerance_ &&
@@ -164,7 +214,7 @@ class Sweep {
     last_right_bottom_ = right_bottom[0];
     while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap)
       ++first_before_;
-    OpenPiece piece{&left, &right, left.slope, right.slope, left_top[0], right_top[0]};
+    OpenPiece piece{&left, &right, left.slope, right.slope, left_top[0], right_top[0], top};
     OpenPiece* below = first_before_ < before_.size() ? &before_[first_before_] : nullptr;
     if (below != nullptr && below->left == &left && below->right == &right &&
         below->outline != OpenPiece::NONE) {
@@ -257,10 +307,11 @@ class Sweep {
 
   std::size_t owners_;
   double tolerance_;
-  std::vector<double> heights_;
+  std::vector<double> heights_;  ///< Once there are rows: where they begin, and the last one ends.
   std::vector<Climb> climbs_;
   std::vector<Outline> outlines_;
-  std::vector<OpenPiece> open_, before_;  ///< Of this row and the one below, from left to right.
+  std::vector<OpenPiece> open_, before_;  ///< Of this row and below it, from left to right.
+  std::vector<OpenPiece> ended_;          ///< Below the row below, where that is thin.
   std::size_t first_before_ = 0;          ///< The first of before_ not left of the row so far.
   double last_right_bottom_ = 0.0;        ///< Of the last trapezoid of the row.
   std::vector<ConvexPolygon> pieces_;

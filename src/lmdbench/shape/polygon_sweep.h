@@ -17,8 +17,8 @@ struct PolygonSide {
 /// Cuts a polygon into convex pieces. A line sweeps upwards over its corners; between two of them
 /// the inside is a row of trapezoids. A trapezoid is joined to the one below while the piece stays
 /// convex (a convex polygon is one piece). Sides may touch or overlap: winding numbers decide.
-/// Corners whose heights differ by the tolerance or less are level, and the strip between them is
-/// skipped.
+/// Corners whose heights differ by the tolerance or less begin one row, for all of their sides; the
+/// strip between them is skipped.
 std::vector<ConvexPolygon> convex_pieces(std::span<const PolygonSide> sides, double tolerance);
 
 /// A connected part of the overlap of two polygons: convex pieces, side by side.
