@@ -33,7 +33,6 @@ struct Climb {
   int winding;        ///< Winding number to its right less that to its left.
   std::size_t owner;  ///< Index of its polygon.
   double slope;
-  std::size_t first_row = 0, end_row = 0;  ///< Rows that it crosses: [first_row, end_row).
 
   Climb(const PolygonSide& side, std::size_t of)
       : low(side.from), high(side.to), winding(side.from[1] < side.to[1] ? -1 : 1), owner(of) {
@@ -91,9 +90,9 @@ class Sweep {
     std::size_t next = 0;
     std::vector<Active> active;
     for (std::size_t i = 0; i + 1 < heights_.size(); ++i) {
-      for (; next < climbs_.size() && climbs_[next].first_row <= i; ++next)
+      for (; next < climbs_.size() && is_level(heights_[i], climbs_[next].low[1]); ++next)
         active.push_back({&climbs_[next], 0.0});
-      std::erase_if(active, [&](const Active& side) { return side.climb->end_row <= i; });
+      std::erase_if(active, [&](const Active& side) { return is_level(heights_[i], side.climb->high[1]); });
       row(active, heights_[i], heights_[i + 1]);
     }
     for (const OpenPiece& piece : open_) close(piece);
@@ -101,10 +100,12 @@ class Sweep {
   }
 
  private:
-  /// Heights at which a side of one polygon crosses a side of the other.
+  /// Heights at which a side of one polygon crosses a side of the other. Sides that are level to
+  /// the tolerance, many in single precision, cross at the heights of their ends.
   void add_crossings() {
     std::array<std::vector<const Climb*>, 2> active;
     for (const Climb& climb : climbs_) {
+      if (is_level(climb.low[1], climb.high[1])) continue;
       std::vector<const Climb*>& others = active[1 - climb.owner];
       std::erase_if(others, [&](const Climb* other) { return other->high[1] <= climb.low[1]; });
       for (const Climb* other : others) {
@@ -118,23 +119,20 @@ class Sweep {
     }
   }
 
-  /// Leaves of the heights those at which rows begin, which differ by more than the tolerance, and
-  /// of the climbs those that cross a row. A corner belongs to one row for all of its sides, so
-  /// winding numbers add up in every row.
+  /// Whether a height, no lower than one at which a row begins, belongs to that row: one rule for
+  /// all ends, so a corner is in one row for all of its sides and winding numbers add up.
+  bool is_level(double beginning, double y) const { return y - beginning <= tolerance_; }
+
+  /// Leaves of the heights those at which rows begin.
   void find_rows() {
     std::ranges::sort(heights_);
     heights_.erase(std::unique(heights_.begin(), heights_.end(),
-                               [&](double first, double other) { return other - first <= tolerance_; }),
+                               [&](double beginning, double y) { return is_level(beginning, y); }),
                    heights_.end());
-    const auto row_of = [&](double y) {
-      return static_cast<std::size_t>(std::ranges::upper_bound(heights_, y) - heights_.begin()) - 1;
-    };
-    for (Climb& climb : climbs_) {
-      climb.first_row = row_of(climb.low[1]);
-      climb.end_row = row_of(climb.high[1]);
-    }
-    std::erase_if(climbs_, [](const Climb& climb) { return climb.first_row == climb.end_row; });
   }
+
+  /// Most distance of what is one [m].
+  double gap() const { return CONTINUATION * tolerance_; }
 
   void row(std::vector<Active>& active, double bottom, double top) {
     const double middle = 0.5 * (bottom + top);
@@ -145,13 +143,10 @@ class Sweep {
       for (; at > 0 && active[at - 1].x > climb.x; --at) active[at] = active[at - 1];
       active[at] = climb;
     }
-    before_.swap(open_);
+    const bool is_in_order = before_.empty();
+    before_.insert(before_.begin(), open_.begin(), open_.end());
+    if (!is_in_order) std::ranges::sort(before_, {}, &OpenPiece::left_x);
     open_.clear();
-    if (!ended_.empty()) {
-      before_.insert(before_.end(), ended_.begin(), ended_.end());
-      std::ranges::sort(before_, {}, &OpenPiece::left_x);
-      ended_.clear();
-    }
     first_before_ = 0;
     std::array<int, 2> winding{0, owners_ == 1 ? 1 : 0};
     std::size_t left = 0;
@@ -166,53 +161,51 @@ class Sweep {
     for (OpenPiece& piece : before_) {
       close(piece);
       piece.outline = OpenPiece::NONE;
-      if (top - piece.top <= CONTINUATION * tolerance_) ended_.push_back(piece);
     }
-    before_.clear();
+    // Below a thin row it still meets what begins above.
+    std::erase_if(before_, [&](const OpenPiece& piece) { return top - piece.top > gap(); });
   }
 
-  /// Places of two sides at a height. A nearly level side is inaccurate there, in a thin row by
-  /// all its length: it stays between the steeper ones beside it, and where the two seem
-  /// to have crossed, the steeper one counts.
-  static std::pair<double, double> ends_at(std::span<const Active> row, std::size_t left, std::size_t right,
-                                           double y) {
-    const auto flatness = [&](std::size_t k) { return std::abs(row[k].climb->slope); };
-    const auto is_beside = [&](std::size_t k, std::size_t level) {
-      return STEEPER * flatness(k) < flatness(level);
-    };
-    double from = row[left].climb->x_at(y), to = row[right].climb->x_at(y);
-    if (flatness(left) > CONTINUATION)
-      for (std::size_t k = left; k-- > 0;)
-        if (is_beside(k, left)) {
-          from = std::max(from, row[k].climb->x_at(y));
-          break;
-        }
-    if (flatness(right) > CONTINUATION)
-      for (std::size_t k = right + 1; k < row.size(); ++k)
-        if (is_beside(k, right)) {
-          to = std::min(to, row[k].climb->x_at(y));
-          break;
-        }
-    if (from <= to) return {from, to};
-    const double x = flatness(left) < flatness(right) ? from : to;
-    return {x, x};
+  /// The nearest of some sides that is clearly steeper than a nearly level one; null where there is
+  /// none, or the side is steep enough for its place to be known to the gap.
+  /// @param nearest, end  of a row's sides, away from `level`
+  template <class Iterator>
+  static const Climb* steeper_beside(const Climb& level, Iterator nearest, Iterator end) {
+    const double flatness = std::abs(level.slope);
+    if (flatness <= CONTINUATION) return nullptr;
+    const auto beside = std::find_if(
+        nearest, end, [&](const Active& side) { return STEEPER * std::abs(side.climb->slope) < flatness; });
+    return beside == end ? nullptr : beside->climb;
   }
 
   void trapezoid(std::span<const Active> row, std::size_t left_at, std::size_t right_at, double bottom,
                  double top) {
     const Climb &left = *row[left_at].climb, &right = *row[right_at].climb;
-    const auto [bottom_from, bottom_to] = ends_at(row, left_at, right_at, bottom);
-    const auto [top_from, top_to] = ends_at(row, left_at, right_at, top);
+    const auto before = row.first(left_at), after = row.subspan(right_at + 1);
+    const Climb* before_left = steeper_beside(left, before.rbegin(), before.rend());
+    const Climb* after_right = steeper_beside(right, after.begin(), after.end());
+    // A nearly level side is inaccurate at a height, in a thin row by all its length: it stays
+    // between the steeper ones beside it, and where the two seem to have crossed, the steeper one
+    // counts.
+    const auto ends_at = [&](double y) -> std::pair<double, double> {
+      double from = left.x_at(y), to = right.x_at(y);
+      if (before_left != nullptr) from = std::max(from, before_left->x_at(y));
+      if (after_right != nullptr) to = std::min(to, after_right->x_at(y));
+      if (from <= to) return {from, to};
+      const double x = std::abs(left.slope) < std::abs(right.slope) ? from : to;
+      return {x, x};
+    };
+    const auto [bottom_from, bottom_to] = ends_at(bottom);
+    const auto [top_from, top_to] = ends_at(top);
     const Vec2 left_bottom(bottom_from, bottom), left_top(top_from, top);
     const Vec2 right_bottom(bottom_to, bottom), right_top(top_to, top);
     if (owners_ == 2 && right_bottom[0] - left_bottom[0] <= tolerance_ &&
         right_top[0] - left_top[0] <= tolerance_)
       return;
-    const double gap = CONTINUATION * tolerance_;
-    const bool meets_neighbour = !open_.empty() && (left_bottom[0] - last_right_bottom_ <= gap ||
-                                                    left_top[0] - open_.back().right_x <= gap);
+    const bool meets_neighbour = !open_.empty() && (left_bottom[0] - last_right_bottom_ <= gap() ||
+                                                    left_top[0] - open_.back().right_x <= gap());
     last_right_bottom_ = right_bottom[0];
-    while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap)
+    while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap())
       ++first_before_;
     OpenPiece piece{&left, &right, left.slope, right.slope, left_top[0], right_top[0], top};
     OpenPiece* below = first_before_ < before_.size() ? &before_[first_before_] : nullptr;
@@ -233,16 +226,15 @@ class Sweep {
   /// A piece continues the one below where the two together are convex.
   void grow_or_begin(OpenPiece& piece, const Vec2& left_bottom, const Vec2& right_bottom,
                      const Vec2& left_top, const Vec2& right_top) {
-    const double gap = CONTINUATION * tolerance_;
     const double left_slope = piece.left_slope, right_slope = piece.right_slope;
     piece.part = part_count_++;
-    for (std::size_t k = first_before_; k < before_.size() && before_[k].left_x <= right_bottom[0] + gap;
+    for (std::size_t k = first_before_; k < before_.size() && before_[k].left_x <= right_bottom[0] + gap();
          ++k) {
       OpenPiece& below = before_[k];
       meetings_.emplace_back(piece.part, below.part);
       const bool goes_on = piece.outline == OpenPiece::NONE && below.outline != OpenPiece::NONE &&
-                           std::abs(below.left_x - left_bottom[0]) <= gap &&
-                           std::abs(below.right_x - right_bottom[0]) <= gap &&
+                           std::abs(below.left_x - left_bottom[0]) <= gap() &&
+                           std::abs(below.right_x - right_bottom[0]) <= gap() &&
                            left_slope >= below.left_slope - SLOPE_ROUNDING * (1.0 + std::abs(left_slope)) &&
                            right_slope <= below.right_slope + SLOPE_ROUNDING * (1.0 + std::abs(right_slope));
       if (!goes_on) continue;
@@ -311,7 +303,6 @@ class Sweep {
   std::vector<Climb> climbs_;
   std::vector<Outline> outlines_;
   std::vector<OpenPiece> open_, before_;  ///< Of this row and below it, from left to right.
-  std::vector<OpenPiece> ended_;          ///< Below the row below, where that is thin.
   std::size_t first_before_ = 0;          ///< The first of before_ not left of the row so far.
   double last_right_bottom_ = 0.0;        ///< Of the last trapezoid of the row.
   std::vector<ConvexPolygon> pieces_;
