@@ -46,9 +46,10 @@ Vec3 ContactPlaces::nearest_place(const Contact& contact, const Vec3& q) const {
   for (const ConvexPolygon& polygon : set_.pieces_of(contact)) {
     if (polygon.holds(x, 0.0)) return q;
     const Vec2 on_side = polygon.nearest_on_sides(x);
-    if ((on_side - x).norm() >= least) continue;
-    least = (on_side - x).norm();
-    nearest = on_side;
+    if (const double distance = (on_side - x).norm(); distance < least) {
+      least = distance;
+      nearest = on_side;
+    }
   }
   return q + frame.lifted(nearest) - frame.lifted(x);
 }

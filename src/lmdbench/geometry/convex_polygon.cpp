@@ -65,9 +65,10 @@ Vec2 ConvexPolygon::nearest_on_sides(const Vec2& x) const {
     const double squared = side.squaredNorm();
     const double share = squared > 0.0 ? std::clamp((x - from).dot(side) / squared, 0.0, 1.0) : 0.0;
     const Vec2 on_side = from + share * side;
-    if ((on_side - x).norm() >= least) continue;
-    least = (on_side - x).norm();
-    nearest = on_side;
+    if (const double distance = (on_side - x).norm(); distance < least) {
+      least = distance;
+      nearest = on_side;
+    }
   }
   return nearest;
 }

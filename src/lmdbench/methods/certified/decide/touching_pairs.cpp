@@ -70,12 +70,6 @@ ClearGap gap_to(const Plane& plane, const ShapeSide& side, const RegionShape& sh
   return least >= -greatest ? ClearGap{least, -plane.normal} : ClearGap{-greatest, plane.normal};
 }
 
-/// Of a face that is the lead of a region of several, else null.
-const RegionShape* shape_of(const ShapeSide& side, const FeatureId& face) {
-  const std::int32_t region = side.shape.region_of(face.index);
-  return region < 0 ? nullptr : side.shape.shapes.of_region(region);
-}
-
 /// Largest gap between two regions along the products of two sides, which with their planes are all
 /// separating axes. No wall's plane separates a box from a box that it stands over.
 ClearGap gap_along_side_products(const ShapeSide& moving, std::int32_t region_moving,
@@ -170,14 +164,13 @@ struct TouchingPairs::Batch {
 
 std::span<const Certificate> TouchingPairs::decide(Frame& frame, std::span<const WidePair> pairs) {
   const ShapeSide &moving = frame.pair.moving, &fixed = frame.pair.fixed;
-  const bool is_joined = moving.shape.is_joined || fixed.shape.is_joined;
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   certificates_.assign(pairs.size(), Certificate{});
   Batch batch, not_crossing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const FeatureId on_moving = pairs[k].a.feature_id(), on_fixed = pairs[k].b.feature_id();
     ++frame.pairs;
-    if (is_joined && (shape_of(moving, on_moving) != nullptr || shape_of(fixed, on_fixed) != nullptr)) {
+    if (moving.shape_of_lead(on_moving.index) != nullptr || fixed.shape_of_lead(on_fixed.index) != nullptr) {
       certificates_[k] = decide_regions(frame, pairs[k]);
       continue;
     }
@@ -278,7 +271,7 @@ struct TouchingPairs::Half {
       : side(of_side),
         lead(face.index),
         region(side.shape.region_of(lead)),
-        shape(shape_of(side, face)),
+        shape(side.shape_of_lead(lead)),
         corners(room) {}
 
   /// Whether all of its corners and chains are on its border, each chain once.

@@ -407,17 +407,8 @@ HWY_INLINE void bound_body(WideNode& node, std::uint32_t lane, const Bodies& bod
 /// A lane of a node, see refit_lanes. @param corners  of plain features right below it, else null
 void bound_node(WideNode& node, std::uint32_t lane, const AllLanesBelow& below, const LaneCorners* corners,
                 float rounding) {
-  const auto has_axis = [](const WideNode& of, std::uint32_t lanes) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t first = 0; first < WIDE_WIDTH; first += Lanes::count()) {
-      const Vectors axis = axes_of(of, first);
-      bits |= Lanes::bits(dot(axis, axis) > Lanes::set(0.0F), first);
-    }
-    return (lanes & ~bits) == 0;
-  };
   Cones cones;
   Bodies bodies;
-  bool all_have_axes = true;
   for (std::size_t k = 0; k < below.count; ++k) {
     const auto& [part, lanes, lmd_lanes] = below.nodes[k];
     if (lmd_lanes != 0) {
@@ -425,7 +416,6 @@ void bound_node(WideNode& node, std::uint32_t lane, const AllLanesBelow& below, 
       append(part->cosine, lmd_lanes, cones.cosine, cones.count);
       append(part->sine, lmd_lanes, cones.sine, cones.count);
       cones.count += WIDE_WIDTH;
-      all_have_axes = all_have_axes && has_axis(*part, lmd_lanes);
     }
     if (corners == nullptr && lanes != 0) {
       append(part->centre, lanes, bodies.centres, bodies.count);
@@ -437,7 +427,8 @@ void bound_node(WideNode& node, std::uint32_t lane, const AllLanesBelow& below, 
   }
   const Vector before{node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]};
   const bool carries_lmd = cones.count > 0;
-  if (!carries_lmd || !all_have_axes || !bound_cone(node, lane, cones, axis_of(cones, before))) {
+  // No cone holds one of all directions, which has no axis, cosine 0 and sine 1.
+  if (!carries_lmd || !bound_cone(node, lane, cones, axis_of(cones, before))) {
     node.axis[0][lane] = node.axis[1][lane] = node.axis[2][lane] = 0.0F;
     node.cosine[lane] = carries_lmd ? 0.0F : NO_LMD_COSINE;
     node.sine[lane] = carries_lmd ? 1.0F : 0.0F;
