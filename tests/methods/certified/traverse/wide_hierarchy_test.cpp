@@ -116,6 +116,22 @@ TEST(PolarCap, OfTentsOfAnyBend) {
   EXPECT_GT(reflex, 5000u);
 }
 
+/// Its two triangles are clearly no needles along the edge, of 1e-12, but one of them has no area.
+TEST(PolarCap, OfAReflexEdgeWithOneNormal) {
+  TriangleMesh fold;
+  fold.vertices = {Vec3::Zero(), Vec3(1e-12, 0.0, 0.0), Vec3(0.0, 0.3, 0.0), Vec3(0.0, 1.1, 1.9)};
+  fold.triangles = {{0, 1, 2}, {1, 0, 3}};
+  const Surface surface = build_surface(fold);
+  ASSERT_EQ(surface.face_normals[0], Vec3::UnitZ());
+  ASSERT_TRUE(surface.face_normals[1].isZero(0.0));
+  const FeatureId edge{FeatureKind::EDGE, 0};
+  const std::vector<Vec3> extremes = extreme_directions(surface, edge);
+  ASSERT_FALSE(extremes.empty());
+  const auto cap = polar_cap(surface, edge);
+  ASSERT_TRUE(cap);
+  for (const Vec3& direction : extremes) EXPECT_GE(cap->axis.dot(direction), cap->cosine);
+}
+
 TEST(PolarCap, IsTight) {
   const Surface box = build_surface(make_box({1.0, 1.0, 1.0}));
   for (const FeatureId& feature : all_features(box)) {

@@ -38,6 +38,7 @@ std::int32_t opposite_corner(const Surface& surface, std::int32_t triangle,
 }
 
 /// Most edges: two triangles that agree on orientation, neither flat, and a bend beyond all slack.
+/// One without area has no normal: the outer side is that of the other alone.
 ///
 /// Let a0 and a1 be the unit vectors across the edge into its triangles, n0 and n1 the normals,
 /// theta the angle from a0 over the outer side to a1, so that a1 . n0 = sin(theta). A convex edge's
@@ -60,6 +61,7 @@ struct ClearEdge {
     const Vec3& normal = surface.face_normals[static_cast<std::size_t>(triangles[0])];
     double rise = 0.0, squared_height = 0.0, squared_flatness = 0.0;
     for (const std::int32_t triangle : {triangles[0], triangles[1]}) {
+      if (surface.face_normals[static_cast<std::size_t>(triangle)].isZero(0.0)) return;
       const std::int32_t corner = opposite_corner(surface, triangle, ends);
       const Vec3 to_corner = surface.mesh.vertices[static_cast<std::size_t>(corner)] - p;
       rise = normal.dot(to_corner);
