@@ -93,6 +93,22 @@ TEST(ConvexPieces, AStarAndTwoIslands) {
   EXPECT_NEAR(area_of(pieces), 2.0 * one, 1e-12);
 }
 
+TEST(ConvexPieces, TrianglesThatCross) {
+  // Two of area 9 each, which share a hexagon of area 6.
+  const std::vector<Vec2> up{{0.0, 0.0}, {6.0, 0.0}, {3.0, 3.0}}, down{{0.0, 2.0}, {3.0, -1.0}, {6.0, 2.0}};
+  for (const double turn : {0.0, 0.3, 1.1, 2.0}) {
+    std::vector<PolygonSide> sides;
+    for (const auto& corners : {up, down})
+      for (const PolygonSide& side : loop(corners)) {
+        const Eigen::Rotation2Dd rotation(turn);
+        sides.push_back({rotation * side.from, rotation * side.to});
+      }
+    const auto pieces = convex_pieces(sides, 1e-14);
+    expect_convex(pieces);
+    EXPECT_NEAR(area_of(pieces), 12.0, 1e-12) << "turned by " << turn;
+  }
+}
+
 /// Parts of the overlap of polygons, the same whether both are mirrored or not.
 void expect_parts(std::size_t count, const std::vector<std::vector<Vec2>>& of_a,
                   const std::vector<std::vector<Vec2>>& of_b, double tolerance) {
@@ -158,6 +174,29 @@ TEST(RegionShape, OutlinesAreTheTrianglesTogether) {
       }
       EXPECT_NEAR(area_of(shape->pieces), area, 1e-13);
       EXPECT_LE(shape->pieces.size(), 3u);
+    }
+  }
+}
+
+/// A fan of more than a full turn, whose last triangle lies on the first: they share 1.6 of 32.
+TEST(RegionShape, PartsThatOverlapAreOnce) {
+  TriangleMesh fan;
+  fan.vertices = {{0.0, 0.0, 0.0},   {4.0, 0.0, 0.0},  {4.0, 4.0, 0.0}, {-1.0, 3.0, 0.0},
+                  {-3.0, -1.0, 0.0}, {3.0, -2.0, 0.0}, {5.0, 1.0, 0.0}};
+  fan.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}};
+  for (const std::uint64_t seed : {0, 9, 10}) {
+    const Surface surface = build_surface(seed == 0 ? fan : testing::turned(fan, seed));
+    const FlatRegions regions = FlatRegions::of(surface);
+    ASSERT_EQ(regions.region_count(), 1);
+    const RegionShapes shapes = region_shapes(surface, regions);
+    const RegionShape& shape = *shapes.of_region(0);
+    EXPECT_TRUE(shape.has_features_inside);
+    expect_convex(shape.pieces);
+    EXPECT_NEAR(area_of(shape.pieces), 30.4, 1e-12);
+    for (const double turn : {0.0, 0.4, 1.9}) {
+      const auto parts = shared_parts(shape.sides, loop(circle(40.0, 4, turn)), 1e-14);
+      ASSERT_EQ(parts.size(), 1u);
+      EXPECT_NEAR(area_of(parts.front()), 30.4, 1e-10);
     }
   }
 }

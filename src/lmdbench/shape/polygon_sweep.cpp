@@ -81,7 +81,7 @@ class Sweep {
         if (side.from[1] != side.to[1]) climbs_.emplace_back(side, owner);
       }
     std::ranges::stable_sort(climbs_, {}, [](const Climb& climb) { return climb.low[1]; });
-    if (owners_ == 2) add_crossings();
+    add_crossings();
     find_rows();
   }
 
@@ -100,19 +100,22 @@ class Sweep {
   }
 
  private:
-  /// Heights at which a side of one polygon crosses a side of the other. Sides that are level to
-  /// the tolerance, many in single precision, cross at the heights of their ends.
+  /// Heights at which a side of one polygon crosses a side of the other, or sides of a polygon that
+  /// is alone cross. Sides that are level to the tolerance, many in single precision, cross at the
+  /// heights of their ends.
   void add_crossings() {
     std::array<std::vector<const Climb*>, 2> active;
+    // Corners of one polygon are often on its own sides, to rounding.
+    const double beyond = owners_ == 2 ? 0.0 : tolerance_;
     for (const Climb& climb : climbs_) {
       if (is_level(climb.low[1], climb.high[1])) continue;
-      std::vector<const Climb*>& others = active[1 - climb.owner];
+      std::vector<const Climb*>& others = active[owners_ - 1 - climb.owner];
       std::erase_if(others, [&](const Climb* other) { return other->high[1] <= climb.low[1]; });
       for (const Climb* other : others) {
         const double bottom = climb.low[1], top = std::min(climb.high[1], other->high[1]);
         const double at_bottom = climb.low[0] - other->x_at(bottom),
                      at_top = climb.x_at(top) - other->x_at(top);
-        if ((at_bottom < 0.0 && at_top > 0.0) || (at_bottom > 0.0 && at_top < 0.0))
+        if ((at_bottom < -beyond && at_top > beyond) || (at_bottom > beyond && at_top < -beyond))
           heights_.push_back(bottom + at_bottom / (at_bottom - at_top) * (top - bottom));
       }
       active[climb.owner].push_back(&climb);

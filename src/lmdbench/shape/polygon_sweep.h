@@ -16,7 +16,8 @@ struct PolygonSide {
 
 /// Cuts a polygon into convex pieces. A line sweeps upwards over its corners; between two of them
 /// the inside is a row of trapezoids. A trapezoid is joined to the one below while the piece stays
-/// convex (a convex polygon is one piece). Sides may touch or overlap: winding numbers decide.
+/// convex (a convex polygon is one piece). Sides may touch, overlap or cross: winding numbers
+/// decide.
 /// Corners whose heights differ by the tolerance or less begin one row, for all of their sides; the
 /// strip between them is skipped.
 std::vector<ConvexPolygon> convex_pieces(std::span<const PolygonSide> sides, double tolerance);
@@ -24,9 +25,10 @@ std::vector<ConvexPolygon> convex_pieces(std::span<const PolygonSide> sides, dou
 /// A connected part of the overlap of two polygons: convex pieces, side by side.
 using SharedPart = std::vector<ConvexPolygon>;
 
-/// Overlap of two polygons, by the same sweep over the sides of both; heights at which sides cross
-/// are corners, too. Parts within the tolerance of each other are one. Rounding adds or loses only
-/// slivers as narrow as the tolerance. n log n in sides and crossings, times the sides at a height.
+/// Overlap of two polygons, by the same sweep over the sides of both; heights at which sides of one
+/// cross sides of the other are corners, too. No sides of one polygon may cross. Parts within the
+/// tolerance of each other are one. Rounding adds or loses only slivers as narrow as the tolerance.
+/// n log n in sides and crossings, times the sides at a height.
 std::vector<SharedPart> shared_parts(std::span<const PolygonSide> a, std::span<const PolygonSide> b,
                                      double tolerance);
 

@@ -61,6 +61,20 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
     const Vec2 a = shape.frame.flat(vertex(ends[0])), b = shape.frame.flat(vertex(ends[1]));
     shape.sides.push_back(forward ? PolygonSide{a, b} : PolygonSide{b, a});
   }
+  shape.pieces = convex_pieces(shape.sides, tolerance);
+  std::vector<Box2> piece_boxes;
+  for (const ConvexPolygon& piece : shape.pieces) piece_boxes.push_back(piece.box());
+  shape.piece_grid = BoxGrid(std::move(piece_boxes));
+  double area_of_pieces = 0.0;
+  for (const ConvexPolygon& piece : shape.pieces) area_of_pieces += piece.measure().area;
+  if (std::abs(area - area_of_pieces) > AREA_ROUNDING * area) {
+    // Its sides may cross, which those of its pieces do not.
+    shape.has_features_inside = true;
+    shape.sides.clear();
+    for (const ConvexPolygon& piece : shape.pieces)
+      for (std::size_t k = 0; k < piece.corners.size(); ++k)
+        shape.sides.push_back({piece.corners[k], piece.corners[(k + 1) % piece.corners.size()]});
+  }
   std::vector<Box2> side_boxes;
   for (const PolygonSide& side : shape.sides) {
     Box2& box = side_boxes.emplace_back();
@@ -68,13 +82,6 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
     box.add(side.to);
   }
   shape.side_grid = BoxGrid(std::move(side_boxes));
-  shape.pieces = convex_pieces(shape.sides, tolerance);
-  std::vector<Box2> piece_boxes;
-  for (const ConvexPolygon& piece : shape.pieces) piece_boxes.push_back(piece.box());
-  shape.piece_grid = BoxGrid(std::move(piece_boxes));
-  double area_of_pieces = 0.0;
-  for (const ConvexPolygon& piece : shape.pieces) area_of_pieces += piece.measure().area;
-  if (std::abs(area - area_of_pieces) > AREA_ROUNDING * area) shape.has_features_inside = true;
 
   shape.triangle_grid = BoxGrid(std::move(boxes));
   std::vector<Vec2> outline;

@@ -19,14 +19,15 @@ namespace lmdbench {
 struct RegionShape {
   PlanarFrame frame{Vec3::Zero(), Vec3::UnitZ()};  ///< In the region's plane, seen against its
                                                    ///< normal; frame S.
-  std::vector<PolygonSide> sides;                  ///< Of the border.
+  std::vector<PolygonSide> sides;                  ///< Of the border, or of the pieces.
   std::vector<ConvexPolygon> pieces;               ///< Side by side; together they are the region.
   BoxGrid piece_grid;                              ///< Of the pieces' boxes.
   BoxGrid side_grid;                               ///< Of the sides' boxes.
   std::vector<std::int32_t> corners;               ///< Ends of its straight edges, ascending.
   std::vector<Vec2> hull;                          ///< Of the corners, counter-clockwise.
   BoxGrid triangle_grid;                           ///< Of the triangles' boxes, in their order.
-  /// It has chains or corners inside (of a fin on it, a slit), or parts of it overlap.
+  /// It has chains or corners inside (of a fin on it, a slit), or parts of it overlap: then its
+  /// border may cross itself, and `sides` are those of the pieces.
   bool has_features_inside = false;
 
   /// Whether a point of the plane is inside, away from every chain and corner, or outside, each by
