@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/deformation.h>
+#include <lmdbench/decision/polar_condition.h>
 #include <lmdbench/lmd/body.h>
 #include <lmdbench/methods/certified/build/build_wide_hierarchy.h>
 #include <lmdbench/methods/certified/build/polar_cap.h>
@@ -130,6 +131,45 @@ TEST(PolarCap, OfAReflexEdgeWithOneNormal) {
   const auto cap = polar_cap(surface, edge);
   ASSERT_TRUE(cap);
   for (const Vec3& direction : extremes) EXPECT_GE(cap->axis.dot(direction), cap->cosine);
+}
+
+/// Corners 1 and 3, and 2 and 6, are within the tolerance: triangle 2 is a needle of its region
+/// whose own normal is turned over, and edge 1 is beside it.
+TEST(PolarCap, OfChainsBesideANeedleTurnedOver) {
+  TriangleMesh mesh;
+  mesh.vertices = {{-1.7900472887021111e-05, -8.2744147232466893e-05, -8.5611274672167664e-05},
+                   {2.3512033348913642e-05, -0.00010697663673534196, 2.0164052310685455e-05},
+                   {3.3572137908777222e-05, -2.5502364223939367e-05, 8.3242943219374865e-05},
+                   {2.3512033294537105e-05, -0.00010697663674363866, 2.0164052330073901e-05},
+                   {-1.9699271464930161e-05, 8.9629073040441905e-05, -1.6894206044282321e-05},
+                   {-4.0069971806575037e-05, 3.0438304758074993e-05, -9.935448181421675e-05},
+                   {3.3572137892927914e-05, -2.5502364226357632e-05, 8.3242943225026079e-05},
+                   {0.46616837382316589, 0.071127377450466156, -0.16621652245521545}};
+  mesh.triangles = {{0, 1, 6}, {1, 0, 7}, {1, 2, 6}, {2, 1, 7}, {2, 3, 6}, {3, 2, 7},
+                    {3, 4, 6}, {4, 3, 7}, {4, 5, 6}, {5, 4, 7}, {5, 0, 6}, {0, 5, 7}};
+  mesh.planar_tolerance = 1.1920928955078125e-07;
+  const Body body("needle", build_surface(mesh));
+  const Surface& surface = body.surface();
+  const auto& shape = body.prepared<ShapeComplex>();
+  ASSERT_EQ(shape.region_of(2), shape.region_of(4));
+  ASSERT_LT(surface.face_normals[2].dot(surface.face_normals[4]), 0.0);
+  const ShapeSide side{surface, shape, RigidTransform(), false};
+  std::size_t admitted = 0;
+  for (std::int32_t chain = 0; chain < static_cast<std::int32_t>(shape.regions.straight_edges.size());
+       ++chain) {
+    const auto& ends = shape.ends_of_chain(chain);
+    const PlanarFrame square(Vec3::Zero(), (side.vertex(ends[1]) - side.vertex(ends[0])).normalized());
+    const auto cap = polar_cap(surface, {FeatureKind::EDGE, shape.lead_of_chain(chain)}, &shape);
+    for (int k = 0; k < 720; ++k) {
+      const double angle = k * std::numbers::pi / 360.0;
+      const Vec3 u = square.lifted(Vec2(std::cos(angle), std::sin(angle)));
+      if (!admits(side, {FeatureKind::EDGE, chain}, u, {0.0, 0.0})) continue;
+      ++admitted;
+      ASSERT_TRUE(cap) << "chain " << chain;
+      EXPECT_TRUE(cap->is_all_directions() || cap->axis.dot(u) >= cap->cosine) << "chain " << chain;
+    }
+  }
+  EXPECT_GT(admitted, 100u);
 }
 
 TEST(PolarCap, IsTight) {
