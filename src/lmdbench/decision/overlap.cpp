@@ -18,11 +18,6 @@ namespace {
 /// small angle to the side the segment's ends move by so much over that angle.
 constexpr double SIDE_ROUNDING = 0.125;
 
-void append_sides_of(const ConvexPolygon& polygon, std::vector<PolygonSide>& sides) {
-  for (std::size_t k = 0; k < polygon.corners.size(); ++k)
-    sides.push_back({polygon.corners[k], polygon.corners[(k + 1) % polygon.corners.size()]});
-}
-
 /// A region in the frame of an overlap.
 class PlacedRegion {
  public:

@@ -316,6 +316,11 @@ class Sweep {
 
 }  // namespace
 
+void append_sides_of(const ConvexPolygon& polygon, std::vector<PolygonSide>& sides) {
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k)
+    sides.push_back({polygon.corners[k], polygon.corners[(k + 1) % polygon.corners.size()]});
+}
+
 std::vector<ConvexPolygon> convex_pieces(std::span<const PolygonSide> sides, double tolerance) {
   std::vector<ConvexPolygon> pieces;
   for (SharedPart& part : Sweep({sides, {}}, tolerance).run())

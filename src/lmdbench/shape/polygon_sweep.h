@@ -14,6 +14,9 @@ struct PolygonSide {
   Vec2 from, to;
 };
 
+/// Appends the sides of a convex polygon.
+void append_sides_of(const ConvexPolygon& polygon, std::vector<PolygonSide>& sides);
+
 /// Cuts a polygon into convex pieces. A line sweeps upwards over its corners; between two of them
 /// the inside is a row of trapezoids. A trapezoid is joined to the one below while the piece stays
 /// convex (a convex polygon is one piece). Sides may touch, overlap or cross: winding numbers

@@ -63,17 +63,17 @@ RegionShape shape_of(const Surface& surface, const FlatRegions& regions, std::in
   }
   shape.pieces = convex_pieces(shape.sides, tolerance);
   std::vector<Box2> piece_boxes;
-  for (const ConvexPolygon& piece : shape.pieces) piece_boxes.push_back(piece.box());
-  shape.piece_grid = BoxGrid(std::move(piece_boxes));
   double area_of_pieces = 0.0;
-  for (const ConvexPolygon& piece : shape.pieces) area_of_pieces += piece.measure().area;
+  for (const ConvexPolygon& piece : shape.pieces) {
+    piece_boxes.push_back(piece.box());
+    area_of_pieces += piece.measure().area;
+  }
+  shape.piece_grid = BoxGrid(std::move(piece_boxes));
   if (std::abs(area - area_of_pieces) > AREA_ROUNDING * area) {
     // Its sides may cross, which those of its pieces do not.
     shape.has_features_inside = true;
     shape.sides.clear();
-    for (const ConvexPolygon& piece : shape.pieces)
-      for (std::size_t k = 0; k < piece.corners.size(); ++k)
-        shape.sides.push_back({piece.corners[k], piece.corners[(k + 1) % piece.corners.size()]});
+    for (const ConvexPolygon& piece : shape.pieces) append_sides_of(piece, shape.sides);
   }
   std::vector<Box2> side_boxes;
   for (const PolygonSide& side : shape.sides) {
