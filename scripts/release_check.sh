@@ -75,7 +75,7 @@ part() {
   cluster) scripts/cluster_test.sh ;;
   mutants-*) scripts/mutants.sh --share "${1#*-}/6" --keep ;;
   completeness) all_meshes && study completeness --poses 1000 ;;
-  hostile) study hostile --poses "$((POSES / 2))" --frames "$((POSES / 2))" ;;
+  hostile) study hostile --poses "$(of_each 3)" --frames "$(of_each 3)" ;; # poses twice: none, laid
   parts) study parts --poses "$(of_each 236)" ;;
   solids) study parts --generator solids --poses "$(of_each 12)" ;;
   shapes) study parts --generator shapes --poses "$(of_each 72)" ;;

@@ -49,10 +49,11 @@ int judge_all(const HostileChoice& choice) {
                            {"motions", nlohmann::json::array()}};
   fmt::print("| motion | variant | searches | true LMDs | missed | wrong | duplicates | wrong poses |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
-  const std::size_t moving_kinds = std::size(ALL_MOTIONS) - 1;
+  const auto moving_kinds = static_cast<std::size_t>(
+      std::ranges::count_if(ALL_MOTIONS, [](Motion motion) { return !is_without_motion(motion); }));
   for (const Motion motion : motions_of(choice)) {
     const std::size_t poses =
-        motion == Motion::NONE ? choice.poses : (choice.frames + moving_kinds - 1) / moving_kinds;
+        is_without_motion(motion) ? choice.poses : (choice.frames + moving_kinds - 1) / moving_kinds;
     const std::vector<Judgement> judgements = judge_hostile_scenes(motion, choice.seed, poses, complain);
     report["motions"].push_back({{"motion", name_of(motion)}, {"variants", variants_json(judgements)}});
     for (std::size_t v = 0; v < judgements.size(); ++v) {
@@ -79,7 +80,8 @@ void lmdbench::study::add_hostile(CLI::App& app, Run& chosen) {
   const auto choice = std::make_shared<HostileChoice>();
   std::vector<std::string> names;
   for (const Motion motion : ALL_MOTIONS) names.emplace_back(name_of(motion));
-  command->add_option("--poses", choice->poses, "Unrelated poses (motion 'none'), 20 a pair of meshes");
+  command->add_option("--poses", choice->poses,
+                      "Unrelated poses (motions 'none' and 'laid', each), 20 a pair of meshes");
   command->add_option("--frames", choice->frames,
                       "Frames of the other motions together, 100 a pair of meshes");
   command->add_option("--seed", choice->seed, "Of the random numbers");

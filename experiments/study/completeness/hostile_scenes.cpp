@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <study/completeness/hostile_meshes.h>
 #include <study/completeness/hostile_scenes.h>
+#include <study/completeness/laid_poses.h>
 #include <support/parts/chances.h>
 #include <support/parts/placement.h>
 #include <support/poses.h>
@@ -108,6 +109,7 @@ void append_frames(Motion motion, std::size_t count, const Start& start, Random&
     Pose next = poses.empty() ? first : poses.back();
     switch (motion) {
       case Motion::NONE:
+      case Motion::LAID:
         next = start(random);
         break;
       case Motion::WALK:
@@ -141,7 +143,7 @@ void append_frames(Motion motion, std::size_t count, const Start& start, Random&
 }
 
 std::size_t poses_a_scene(Motion motion) {
-  return motion == Motion::NONE ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE;
+  return is_without_motion(motion) ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE;
 }
 
 std::vector<Pose> motion_of(Motion motion, const Start& start, Random& random) {
@@ -161,17 +163,33 @@ std::vector<Pose> motion_of(Motion motion, const Start& start, Random& random) {
   return poses;
 }
 
+std::vector<Pose> laid_poses(const TriangleMesh& moving, const TriangleMesh& fixed, bool is_copy,
+                             Random& random) {
+  std::vector<Pose> poses;
+  while (poses.size() < HOSTILE_POSES_A_SCENE)
+    poses.push_back(is_copy && chance(0.5, random) ? laid_on_itself(moving, random)
+                                                   : laid_pose(moving, fixed, random));
+  return poses;
+}
+
+/// Spread so that no two scenes draw the same numbers. Those of the first seven motions are what
+/// found poses were found by.
+std::uint64_t seed_of(Motion motion, std::uint64_t seed, std::size_t index) {
+  constexpr std::uint64_t MOVING = 7;
+  const std::uint64_t which = static_cast<std::uint64_t>(motion);
+  const std::uint64_t spread = (seed * MOVING + which % MOVING) * 0x9E3779B97F4A7C15ULL + index;
+  return which < MOVING ? spread : ~spread;
+}
+
 }  // namespace
 
 const char* name_of(Motion motion) {
-  constexpr std::array NAMES = {"none", "walk", "slide", "tremble", "jumps", "through", "mixed"};
+  constexpr std::array NAMES = {"none", "walk", "slide", "tremble", "jumps", "through", "mixed", "laid"};
   return NAMES.at(static_cast<std::size_t>(motion));
 }
 
 GeneratedScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t index) {
-  // Seeds are spread so that no two scenes draw the same numbers.
-  Random random((seed * std::size(ALL_MOTIONS) + static_cast<std::uint64_t>(motion)) * 0x9E3779B97F4A7C15ULL +
-                index);
+  Random random(seed_of(motion, seed, index));
   const HostileMesh fixed = make_hostile_mesh(random);
   const bool is_copy = chance(0.2, random);
   HostileMesh moving = is_copy ? fixed : make_hostile_mesh(random);
@@ -179,8 +197,9 @@ GeneratedScene make_hostile_scene(Motion motion, std::uint64_t seed, std::size_t
   for (Vec3& p : moving.mesh.vertices) p *= ratio;
   moving.mesh.planar_tolerance *= ratio;
   const double cutoff = ratio * power_of_ten(-3.0, -0.3, random);
-  const Start start(moving.mesh, fixed.mesh, ratio, cutoff);
-  const std::vector<Pose> poses = motion_of(motion, start, random);
+  const std::vector<Pose> poses =
+      motion == Motion::LAID ? laid_poses(moving.mesh, fixed.mesh, is_copy, random)
+                             : motion_of(motion, Start(moving.mesh, fixed.mesh, ratio, cutoff), random);
 
   const double size = chance(0.7, random) ? 1.0 : power_of_ten(-9.0, 9.0, random);
   const auto offset = [&] {

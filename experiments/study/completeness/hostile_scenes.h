@@ -18,10 +18,14 @@ enum class Motion : std::uint8_t {
   TREMBLE,  ///< About one pose, by a rounding up to a hundredth of the size.
   JUMPS,    ///< A slide that now and then jumps elsewhere, or there and back.
   THROUGH,  ///< To and fro through the surface.
-  MIXED     ///< All of these and standing still, each for a while.
+  MIXED,    ///< All of these and standing still, each for a while.
+  LAID      ///< Unrelated poses, corner on corner and edge on edge (laid_poses.h).
 };
 inline constexpr Motion ALL_MOTIONS[] = {Motion::NONE,  Motion::WALK,    Motion::SLIDE, Motion::TREMBLE,
-                                         Motion::JUMPS, Motion::THROUGH, Motion::MIXED};
+                                         Motion::JUMPS, Motion::THROUGH, Motion::MIXED, Motion::LAID};
+inline bool is_without_motion(Motion motion) {
+  return motion == Motion::NONE || motion == Motion::LAID;
+}
 const char* name_of(Motion motion);
 
 /// Number of poses or frames of one hostile scene.

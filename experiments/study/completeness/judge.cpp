@@ -15,11 +15,19 @@ std::string describe(const Lmd& lmd) {
                      lmd.fixed_body, lmd.distance);
 }
 
+/// How far both points are from the other's [m].
+double points_apart(const Lmd& a, const Lmd& b) {
+  return std::max((a.point_moving - b.point_moving).norm(), (a.point_fixed - b.point_fixed).norm());
+}
+
+/// Of several of one pair the nearest.
 const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
-  const auto found = std::find_if(set.begin(), set.end(), [&](const Lmd& lmd) {
-    return same_feature_pair(lmd, wanted) && lmd.intersecting == wanted.intersecting;
-  });
-  return found == set.end() ? nullptr : &*found;
+  const Lmd* nearest = nullptr;
+  for (const Lmd& lmd : set)
+    if (same_feature_pair(lmd, wanted) && lmd.intersecting == wanted.intersecting &&
+        (nearest == nullptr || points_apart(lmd, wanted) < points_apart(*nearest, wanted)))
+      nearest = &lmd;
+  return nearest;
 }
 
 /// LMDs beyond the first of a feature pair. Intersecting LMDs are counted apart: their feature pair
@@ -49,7 +57,8 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
   result.poses = 1;
   result.same = agreement(truth, reported, Match::SAME_FEATURES, scene);
   result.neighbours = agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
-  result.duplicates = duplicates(reported);
+  const std::size_t reported_twice = duplicates(reported);
+  result.duplicates = reported_twice - std::min(reported_twice, duplicates(truth));
   objection.clear();
   const auto object = [&](const std::string& what) { objection += (objection.empty() ? "" : "; ") + what; };
   if (result.duplicates > 0) object(fmt::format("{} duplicates", result.duplicates));
@@ -60,9 +69,7 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
       continue;
     }
     const double distance = std::abs(lmd.distance - same->distance) / diagonal;
-    const double point = std::max((lmd.point_moving - same->point_moving).norm(),
-                                  (lmd.point_fixed - same->point_fixed).norm()) /
-                         diagonal;
+    const double point = points_apart(lmd, *same) / diagonal;
     result.worst_distance_difference = std::max(result.worst_distance_difference, distance);
     result.worst_point_difference = std::max(result.worst_point_difference, point);
     // Written so that NaN fails.

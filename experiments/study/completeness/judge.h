@@ -18,9 +18,11 @@ inline constexpr double CROSSING_TOLERANCE = 1e-11;
 
 /// How far reported LMD sets are from the true ones, summed over poses.
 struct Judgement {
-  Agreement same;              ///< Same features.
-  Agreement neighbours;        ///< Neighbouring features count.
-  std::size_t duplicates = 0;  ///< LMDs beyond the first of a feature pair.
+  Agreement same;        ///< Same features.
+  Agreement neighbours;  ///< Neighbouring features count.
+  /// LMDs beyond the first of a feature pair, more than in the truth: parts of a chain over one
+  /// face are LMDs of their own.
+  std::size_t duplicates = 0;
   std::size_t poses = 0;
   std::size_t wrong_poses = 0;             ///< Poses with anything wrong.
   double worst_distance_difference = 0.0;  ///< Over matched pairs, relative to the diagonal.

@@ -48,7 +48,7 @@ TEST(HostileScenes, DependOnTheirArgumentsAlone) {
     EXPECT_EQ(one.label, same.label);
     EXPECT_EQ(one.poses.back().translation, same.poses.back().translation);
     EXPECT_NE(one.label, other.label);
-    EXPECT_EQ(one.poses.size(), motion == Motion::NONE ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE);
+    EXPECT_EQ(one.poses.size(), is_without_motion(motion) ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE);
   }
 }
 
@@ -78,7 +78,7 @@ TEST(HostileScenes, APairOfFeaturesHasOneLmd) {
     Exhaustive exhaustive(hostile.scene);
     const LmdSet truth = lmds_at(exhaustive, hostile.poses[found.pose]);
     std::string objection;
-    EXPECT_EQ(judge(truth, truth, hostile.scene, hostile.scale, objection).duplicates, 0U) << hostile.label;
+    EXPECT_EQ(judge({}, truth, hostile.scene, hostile.scale, objection).duplicates, 0U) << hostile.label;
   }
 }
 

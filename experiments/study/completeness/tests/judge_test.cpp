@@ -66,6 +66,18 @@ TEST_F(JudgeTest, CountsDuplicates) {
   EXPECT_EQ(judgement.wrong_poses, 1u);
 }
 
+TEST_F(JudgeTest, PartsOfOnePairAreLmdsOfTheirOwn) {
+  Lmd part = truth_[2];
+  part.point_fixed.y() = part.point_moving.y() = 0.7;
+  truth_.push_back(part);
+  const Judgement judgement = judge_now(truth_);
+  EXPECT_EQ(judgement.duplicates, 0u);
+  EXPECT_EQ(judgement.wrong_poses, 0u) << objection_;
+  LmdSet reported = truth_;
+  reported[3] = truth_[2];
+  EXPECT_EQ(judge_now(reported).wrong_poses, 1u) << "the other part, twice";
+}
+
 TEST_F(JudgeTest, TellsWhatIntersectsFromAnLmdOfTheSameFeatures) {
   Lmd touching = truth_[1];
   touching.intersecting = true;

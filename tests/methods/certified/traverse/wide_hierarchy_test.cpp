@@ -133,6 +133,34 @@ TEST(PolarCap, OfAReflexEdgeWithOneNormal) {
   for (const Vec3& direction : extremes) EXPECT_GE(cap->axis.dot(direction), cap->cosine);
 }
 
+/// Rounding turns its product with another line out of the plane square to it.
+TEST(PolarCap, OfALineAsShortAsRoundingIsAllDirections) {
+  for (const double length : {0.9 * LEAST_WING, 1.1 * LEAST_WING}) {
+    TriangleMesh tent;  // Its ridge is an edge of its own, the upright edges of a plate are chains.
+    tent.vertices = {{0.0, 0.0, 0.0}, {length, 0.0, 0.0}, {0.0, 1.0, -0.1}, {0.0, -1.0, -0.1}};
+    tent.triangles = {{0, 1, 2}, {1, 0, 3}};
+    for (const TriangleMesh& mesh : {tent, make_box(Vec3(2.0, 2.0, length))}) {
+      const Body body("short", build_surface(mesh));
+      const Surface& surface = body.surface();
+      const auto& shape = body.prepared<ShapeComplex>();
+      ASSERT_EQ(shape.regions.extent, 1.0);
+      std::size_t shorts = 0;
+      for (std::int32_t chain = 0; chain < static_cast<std::int32_t>(shape.regions.straight_edges.size());
+           ++chain) {
+        const auto& ends = shape.ends_of_chain(chain);
+        const Vec3 line = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
+                          surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+        if (line.norm() > 2.0 * length) continue;
+        ++shorts;
+        const auto cap = polar_cap(surface, {FeatureKind::EDGE, shape.lead_of_chain(chain)}, &shape);
+        ASSERT_TRUE(cap);
+        EXPECT_EQ(cap->is_all_directions(), length < LEAST_WING);
+      }
+      EXPECT_GT(shorts, 0u);
+    }
+  }
+}
+
 /// Corners 1 and 3, and 2 and 6, are within the tolerance: triangle 2 is a needle of its region
 /// whose own normal is turned over, and edge 1 is beside it.
 TEST(PolarCap, OfChainsBesideANeedleTurnedOver) {

@@ -53,13 +53,12 @@ struct ClearEdge {
   bool is_convex = false;
   double size_per_height = 0.0;  ///< The larger of the two triangles'.
 
-  ClearEdge(const Surface& surface, std::int32_t edge, double least_wing) {
+  ClearEdge(const Surface& surface, std::int32_t edge, const Vec3& along, double least_wing) {
     const auto e = static_cast<std::size_t>(edge);
     if (surface.edge_is_boundary[e] || surface.edge_is_non_manifold[e]) return;
     const auto& ends = surface.adjacency.edges[e];
     const auto triangles = surface.adjacency.edge_triangles[edge];
     const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
-    const Vec3 along = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] - p;
     const double squared_length = along.squaredNorm();
     const Vec3& normal = surface.face_normals[static_cast<std::size_t>(triangles[0])];
     double rise = 0.0, squared_height = 0.0, squared_flatness = 0.0;
@@ -97,11 +96,10 @@ std::optional<PolarCap> cap_of_arc(const Vec3& along, Scratch& work) {
   return cap_around(work.extremes);
 }
 
-}  // namespace
-
-std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, double least_wing) {
-  Scratch& work = scratch();
-  const ClearEdge clear(surface, edge, least_wing);
+/// Of an edge with its two triangles, or more or fewer.
+std::optional<PolarCap> cap_of_edge(const Surface& surface, std::int32_t edge, Vec3 along, double least_wing,
+                                    Scratch& work) {
+  const ClearEdge clear(surface, edge, along, least_wing);
   if (clear.is_clear) {
     if (!clear.is_convex) return std::nullopt;
     for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge])
@@ -109,12 +107,9 @@ std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, doub
     work.extremes.slack = 2.0 * slack_of(clear.size_per_height);
     return cap_around(work.extremes);
   }
-  const auto e = static_cast<std::size_t>(edge);
-  const auto& ends = surface.adjacency.edges[e];
+  const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
   const Vec3& p = surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
-  Vec3 along = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] - p;
   const double length = along.norm();
-  if (!(length > 0.0)) return std::nullopt;
   along /= length;
 
   for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge]) {
@@ -136,14 +131,10 @@ std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, doub
   return cap_of_arc(along, work);
 }
 
-std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& shape, std::int32_t chain) {
-  Scratch& work = scratch();
-  const auto& ends = shape.ends_of_chain(chain);
-  const Vec3 from_to = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
-                       surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
-  if (!(from_to.squaredNorm() > 0.0)) return std::nullopt;
+/// Of a chain of several edges or between regions, from its wings and its regions' normals.
+std::optional<PolarCap> cap_of_chain(const Surface& surface, const ShapeComplex& shape, std::int32_t chain,
+                                     const Vec3& along, double least_wing, Scratch& work) {
   // Of a triangle without area the wing is rounding.
-  const double least_wing = LEAST_WING * shape.regions.extent;
   shape.for_each_chain_wing(surface, chain, [&](const Vec3& wing) {
     const double depth = wing.norm();
     if (depth > least_wing) work.constraints.push_back({wing / depth, POLAR_SLACK});
@@ -172,7 +163,25 @@ std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& sh
     work.constraints.push_back({-outer, POLAR_SLACK});
   }
   if (work.constraints.empty()) return PolarCap{};
-  return cap_of_arc(from_to.normalized(), work);
+  return cap_of_arc(along.normalized(), work);
+}
+
+}  // namespace
+
+std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, const ShapeComplex* shape) {
+  const std::int32_t chain = shape != nullptr ? shape->chain_of(edge) : -1;
+  const bool is_plain = shape == nullptr || shape->is_plain_chain(surface, chain);
+  const auto& ends =
+      is_plain ? surface.adjacency.edges[static_cast<std::size_t>(edge)] : shape->ends_of_chain(chain);
+  const Vec3 along = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
+                     surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+  const double squared_length = along.squaredNorm();
+  if (!(squared_length > 0.0)) return std::nullopt;
+  const double least_wing = shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0;
+  // Rounding turns its product with another line by more than the slack.
+  if (squared_length <= least_wing * least_wing) return PolarCap{};
+  return is_plain ? cap_of_edge(surface, edge, along, least_wing, scratch())
+                  : cap_of_chain(surface, *shape, chain, along, least_wing, scratch());
 }
 
 }  // namespace lmdbench::polar

@@ -28,8 +28,12 @@ double shortest_wing(const Surface& surface, const ShapeComplex& shape) {
   };
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(surface.mesh.vertices.size()); ++v)
     if (shape.is_corner(v)) shape.for_each_corner_wing(surface, v, take);
-  for (std::int32_t c = 0; c < static_cast<std::int32_t>(shape.regions.straight_edges.size()); ++c)
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(shape.regions.straight_edges.size()); ++c) {
     shape.for_each_chain_wing(surface, c, take);
+    const auto& ends = shape.ends_of_chain(c);
+    take(surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
+         surface.mesh.vertices[static_cast<std::size_t>(ends[0])]);
+  }
   return shortest;
 }
 

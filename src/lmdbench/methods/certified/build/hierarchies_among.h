@@ -12,8 +12,8 @@
 namespace lmdbench {
 
 /// Hierarchies of a mesh among coordinates that are far larger than its own. There rounding turns a
-/// direction against short wings by more than POLAR_SLACK, though LEAST_WING counts them: caps
-/// leave more wings out (PROOF.md, lemma 3). Nearly no mesh has any that short.
+/// direction against short wings and lines by more than POLAR_SLACK, though LEAST_WING counts them:
+/// caps leave more of them out (PROOF.md, lemma 3). Nearly no mesh has any that short.
 /// @tparam WithCritical  over the features of a SignedHierarchy
 template <bool WithCritical>
 class HierarchiesAmong {
@@ -29,7 +29,7 @@ class HierarchiesAmong {
 
  private:
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
-  /// Of those that LEAST_WING counts; infinity without one, nothing while nobody asked [m].
+  /// Or line, of those that LEAST_WING counts; infinity without one, nothing before a call [m].
   mutable std::optional<double> shortest_wing_;
   /// By the power of two that bounds the coordinates.
   mutable std::map<int, std::unique_ptr<WideHierarchy>> made_;

@@ -193,10 +193,7 @@ std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& featu
     case FeatureKind::VERTEX:
       return vertex_cap(surface, feature.index, shape, bounding);
     case FeatureKind::EDGE:
-      if (shape != nullptr && !shape->is_plain_chain(surface, shape->chain_of(feature.index)))
-        return polar::chain_cap(surface, *shape, shape->chain_of(feature.index));
-      return polar::edge_cap(surface, feature.index,
-                             shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0);
+      return polar::edge_cap(surface, feature.index, shape);
     case FeatureKind::FACE:
       break;
   }

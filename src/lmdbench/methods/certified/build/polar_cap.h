@@ -28,7 +28,7 @@ inline constexpr double POLAR_SLACK = 2e-6;
 
 /// Shorter wings, relative to the mesh's largest coordinate, are left out: against them the
 /// definition grants more than POLAR_SLACK (PROOF.md, lemma 3). Fewer constraints give a larger
-/// cap.
+/// cap; that of lines as short is all directions.
 inline constexpr double LEAST_WING = 1e-6;
 
 /// Bits of a vertex's wings, of which only the first 32 have one.

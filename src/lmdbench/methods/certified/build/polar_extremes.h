@@ -45,11 +45,8 @@ bool satisfies(const std::vector<Constraint>& constraints, const Vec3& direction
 /// Smallest cap around the directions, widened by the slack; nothing where there are none.
 std::optional<PolarCap> cap_around(const Extremes& extremes);
 
-/// Cap of an edge.
-/// @param least_wing  triangles of at most this height over the edge are left out [m]
-std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, double least_wing);
-
-/// Cap of a chain of a shape, from its wings and its regions' normals.
-std::optional<PolarCap> chain_cap(const Surface& surface, const ShapeComplex& shape, std::int32_t chain);
+/// Cap of an edge, or of the chain whose lead it is. Of lines no longer than the least wing: all
+/// directions.
+std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, const ShapeComplex* shape);
 
 }  // namespace lmdbench::polar
