@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/geometry/extent.h>
 #include <lmdbench/geometry/segment_distance.h>
 
 #include <gtest/gtest.h>
@@ -223,7 +224,11 @@ TEST(PartOf, IsWhatIsNoFartherOutsideThanTheReach) {
     const bool is_some = part.end > part.begin;
     (is_some ? parts : none) += 1;
     for (int k = 0; k <= 50; ++k) {
-      const double s = k / 50.0, height = height_over_sides(polygon, p + s * (q - p)) - within;
+      const double s = k / 50.0;
+      const Vec2 x = p + s * (q - p), along = (q - p).normalized();
+      const Extent extent = extent_along(polygon.corners, along);
+      const double beyond = std::max(extent.least - along.dot(x), along.dot(x) - extent.greatest);
+      const double height = std::max(height_over_sides(polygon, x) - within, beyond - 2.0 * within);
       if (height < -1e-12) {
         EXPECT_TRUE(is_some && part.begin <= s && s <= part.end)
             << s << " of " << part.begin << " " << part.end;
@@ -258,6 +263,18 @@ TEST(PartOf, ASegmentAlongASideIsInside) {
     EXPECT_NEAR(part.end, 0.5, beside);
   }
   EXPECT_FALSE(ConvexPolygon().part_of({0, 0}, {1, 0}, 9.0).end > 0.0) << "nothing is in nothing";
+}
+
+TEST(PartOf, ASegmentEndsAtTheTipOfANeedle) {
+  const double width = 1e-11, within = 1e-14;
+  const ConvexPolygon needle({{0, 0}, {1, 0}, {0, width}});
+  for (const double slope : {0.0, -width, 1e-9}) {
+    const Vec2 tip(1.0, 0.0), along(1.0, slope);
+    const SegmentPart part = needle.part_of(tip - along, tip + along, within);
+    EXPECT_LE(part.end, 0.5 + 2.0 * within) << slope;
+    EXPECT_GE(part.end, 0.5 - within) << slope;
+    EXPECT_FALSE(needle.part_of(tip + 1e-6 * along, tip + along, within).end > 0.0) << slope;
+  }
 }
 
 TEST(Holds, IsClosedAtTheReach) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/contract.h>
 #include <lmdbench/geometry/convex_polygon.h>
+#include <lmdbench/geometry/extent.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,14 @@ SegmentPart ConvexPolygon::part_of(const Vec2& p, const Vec2& q, double within) 
     if (side_p < 0.0 && side_q < 0.0) return {};
     if (side_p < 0.0) part.begin = std::max(part.begin, side_p / (side_p - side_q));
     if (side_q < 0.0) part.end = std::min(part.end, side_p / (side_p - side_q));
+  }
+  if (within > 0.0 && part.begin < part.end) {
+    // Beyond the tip of a needle along the segment both sides' lines are within reach for long.
+    const Vec2 along = q - p;
+    const Extent extent = extent_along(corners, along);
+    const double spare = 2.0 * within * along.norm(), start = along.dot(p), squared = along.squaredNorm();
+    part.begin = std::max(part.begin, (extent.least - spare - start) / squared);
+    part.end = std::min(part.end, (extent.greatest + spare - start) / squared);
   }
   return part;
 }

@@ -82,7 +82,8 @@ struct ConvexPolygon {
   /// It has no corners where the polygons do not overlap.
   ConvexPolygon cut_by(const ConvexPolygon& other) const;
   /// The part of the segment from p to q that lies inside.
-  /// @param within  how far outside still counts as inside [m]
+  /// @param within  how far outside a side's line still counts as inside, and twice that beyond
+  ///   where the polygon begins and ends along the segment [m]
   SegmentPart part_of(const Vec2& p, const Vec2& q, double within = 0.0) const;
   AreaAndCentroid measure() const { return area_and_centroid(corners); }
   Box2 box() const;

@@ -82,11 +82,11 @@ TEST(HostileScenes, APairOfFeaturesHasOneLmd) {
   }
 }
 
-void expect_right(std::uint64_t seed, std::size_t index) {
+void expect_right(std::uint64_t seed, std::size_t index, Motion motion = Motion::NONE) {
   std::string wrong;
   std::vector<Judgement> judgements(variants().size());
   judge_scene(
-      make_hostile_scene(Motion::NONE, seed, index), [&](const std::string& what) { wrong += what + "\n"; },
+      make_hostile_scene(motion, seed, index), [&](const std::string& what) { wrong += what + "\n"; },
       judgements);
   EXPECT_EQ(wrong, "");
 }
@@ -100,6 +100,16 @@ TEST(HostileScenes, AMeshFarSmallerThanTheOtherLosesNothing) {
 /// A mesh in the place of its copy, with an edge of 1e-12 beside a triangle without area.
 TEST(HostileScenes, AnEdgeWithOneNormalLosesNothing) {
   expect_right(202611272, 8895);
+}
+
+/// Edges beyond the tip of a needle that they run along were over it in one method.
+TEST(HostileScenes, NeedlesEndAtTheirTips) {
+  expect_right(41, 6759, Motion::LAID);
+}
+
+/// Of edges of folded needles the outer side is rounding.
+TEST(HostileScenes, AnEdgeWhoseNormalsCancelLosesNothing) {
+  expect_right(41, 9879, Motion::LAID);
 }
 
 TEST(HostileScenes, AContactOfShortPiecesApartHasItsMiddle) {

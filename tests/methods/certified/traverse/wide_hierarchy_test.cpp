@@ -133,6 +133,28 @@ TEST(PolarCap, OfAReflexEdgeWithOneNormal) {
   for (const Vec3& direction : extremes) EXPECT_GE(cap->axis.dot(direction), cap->cosine);
 }
 
+/// The outer side is rounding, along the edge: it must not cut the cone.
+TEST(PolarCap, OfAnEdgeWhoseNormalsCancel) {
+  TriangleMesh fold;
+  fold.vertices = {{-1.6112176410658267e-09, -3.3191047260829516e-09, -1.6073332055874179e-09},
+                   {3.1169241280783188e-09, -3.0591551646468974e-10, 1.841415016597065e-09},
+                   {-1.6112176410658267e-09, -3.3191047260829516e-09, -1.6073332055874179e-09},
+                   {-2.9397845364018317e-09, -3.2468890067652776e-09, 0.50000000194675054}};
+  fold.triangles = {{0, 1, 3}, {1, 2, 3}};
+  const Body body("fold", build_surface(fold));
+  const Surface& surface = body.surface();
+  std::size_t folds = 0;
+  for (std::int32_t edge = 0; edge < static_cast<std::int32_t>(surface.adjacency.edges.size()); ++edge) {
+    if (surface.edge_is_boundary[static_cast<std::size_t>(edge)]) continue;
+    ++folds;
+    ASSERT_GT(std::abs(surface.pseudo_normal({FeatureKind::EDGE, edge}).z()), 0.9);
+    const auto cap = polar_cap(surface, {FeatureKind::EDGE, edge}, &body.prepared<ShapeComplex>());
+    ASSERT_TRUE(cap);
+    EXPECT_TRUE(cap->is_all_directions());
+  }
+  EXPECT_EQ(folds, 1u);
+}
+
 /// Rounding turns its product with another line out of the plane square to it.
 TEST(PolarCap, OfALineAsShortAsRoundingIsAllDirections) {
   for (const double length : {0.9 * LEAST_WING, 1.1 * LEAST_WING}) {

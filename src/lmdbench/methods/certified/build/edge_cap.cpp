@@ -12,8 +12,9 @@ namespace lmdbench::polar {
 
 namespace {
 
-/// End directions that are shorter than this before they are made unit are rounding.
-constexpr double LEAST_END = 1e-6;
+/// Constraints at a smaller sine to the edge constrain nothing: where two normals cancel, the outer
+/// side is rounding, in any direction.
+constexpr double LEAST_SINE = 0.9;
 /// Looser constraints (a sine) are dropped: caps of needle-like triangles get wider, never wrong.
 constexpr double LARGEST_SLACK = 0.1;
 /// Lower triangles, relative to their length, constrain nothing: their height is rounding.
@@ -80,15 +81,17 @@ struct ClearEdge {
 };
 
 /// The cone of directions square to the edge that satisfy the constraints: an arc, whose ends are
-/// square to constraints.
+/// square to constraints. All directions where nothing constrains them.
+/// @param along  unit
 std::optional<PolarCap> cap_of_arc(const Vec3& along, Scratch& work) {
+  std::erase_if(work.constraints, [&](const Constraint& constraint) {
+    return along.cross(constraint.direction).squaredNorm() < LEAST_SINE * LEAST_SINE;
+  });
+  if (work.constraints.empty()) return PolarCap{};
   for (const Constraint& constraint : work.constraints)
     work.extremes.slack = std::max(work.extremes.slack, 2.0 * constraint.slack);
   for (std::size_t k = 0; k < work.constraints.size(); ++k) {
-    Vec3 end = along.cross(work.constraints[k].direction);
-    const double end_length = end.norm();
-    if (!(end_length > LEAST_END)) continue;
-    end /= end_length;
+    const Vec3 end = along.cross(work.constraints[k].direction).normalized();
     for (const Vec3& candidate : {end, Vec3(-end)})
       if (satisfies(work.constraints, candidate, k, NONE, work.constraints[k].slack))
         work.extremes.directions.push_back(candidate);
@@ -126,8 +129,6 @@ std::optional<PolarCap> cap_of_edge(const Surface& surface, std::int32_t edge, V
   }
   if (surface.has_outer_side({FeatureKind::EDGE, edge}))
     work.constraints.push_back({-surface.pseudo_normal({FeatureKind::EDGE, edge}), POLAR_SLACK});
-  if (work.constraints.empty()) return PolarCap{};
-
   return cap_of_arc(along, work);
 }
 
@@ -162,7 +163,6 @@ std::optional<PolarCap> cap_of_chain(const Surface& surface, const ShapeComplex&
     }
     work.constraints.push_back({-outer, POLAR_SLACK});
   }
-  if (work.constraints.empty()) return PolarCap{};
   return cap_of_arc(along.normalized(), work);
 }
 
