@@ -304,13 +304,15 @@ TEST(JoinContacts, TwoRegionsOfOnePlaneAreOneLmd) {
   }
 }
 
+TriangleMesh bar_on_its_edge() {
+  return {{{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}},
+          {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}}};
+}
+
 TEST(JoinContacts, AChainOverTwoTeethIsOneLmdATooth) {
-  TriangleMesh bar;
-  bar.vertices = {{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}};
-  bar.triangles = {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}};
   const TriangleMesh teeth = merged(translated(make_box({0.04, 1.0, 1.0}), Vec3(0.02, 0.0, -0.5)),
                                     translated(make_box({0.04, 1.0, 1.0}), Vec3(0.17, 0.0, -0.5)));
-  ShapeScene scene(bar, teeth);
+  ShapeScene scene(bar_on_its_edge(), teeth);
   for (const double tilt : {0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-3}) {
     SCOPED_TRACE(tilt);
     LmdSet lmds = scene.lmds(turned_by(tilt, Vec3::UnitY(), Vec3(0.0, 0.0, 0.01)));
@@ -321,6 +323,39 @@ TEST(JoinContacts, AChainOverTwoTeethIsOneLmdATooth) {
     const bool is_level = 0.04 * tilt <= known;
     EXPECT_NEAR(lmds[0].point_fixed.x(), is_level ? 0.02 : 0.04, 1e-4);
     EXPECT_NEAR(lmds[1].point_fixed.x(), is_level ? 0.17 : 0.19, 1e-4);
+  }
+}
+
+/// What is left of the contacts that scene has at a pose, joined.
+template <typename IsLeftOut>
+std::size_t count_without(ShapeScene& scene, const Pose& pose, IsLeftOut&& is_left_out) {
+  const ShapePair pair = scene.at(pose);
+  ContactSet set = scene.contacts(pair);
+  std::erase_if(set.contacts, is_left_out);
+  return testing::joined(pair, set).size();
+}
+
+TEST(JoinContacts, AWayAlongALineLeadsOverThePlacesBetween) {
+  // Over the second tooth only the ends are left: no way leads there from the first one.
+  ShapeScene scene(bar_on_its_edge(), sheet_of({"#.#", "#.#", "###"}, 0.4));
+  const Pose pose = moved(0.0, 0.4, 0.05);
+  const auto is_second_part = [](const Contact& c) { return c.dimension == 1 && c.point_fixed.x() > 0.0; };
+  EXPECT_EQ(count_without(scene, pose, [](const Contact&) { return false; }), 2u);
+  EXPECT_EQ(count_without(scene, pose, is_second_part), 2u);
+}
+
+TEST(JoinContacts, PlacesOnNoLineAreJoinedWhereverAWayLeads) {
+  // Opposite corners of a square are over one arm of a bracket, a third one over the other arm.
+  const double side = 0.8 * std::numbers::sqrt2;
+  ShapeScene scene(translated(make_box({side, side, 0.4}), Vec3(0.0, 0.0, 0.2)),
+                   sheet_of({"########", "#.......", "########"}, 0.4));
+  for (const int quarters : {0, 1, 2, 3}) {
+    const Pose pose =
+        turned_by((0.25 + 0.5 * quarters) * std::numbers::pi, Vec3::UnitZ(), Vec3(0.5, -0.4, 0.05));
+    EXPECT_EQ(count_without(scene, pose,
+                            [](const Contact& c) { return c.moving.kind != VERTEX || c.fixed.kind != FACE; }),
+              2u)
+        << quarters;
   }
 }
 
