@@ -63,12 +63,13 @@ bool edges_are_between(const ShapePair& pair, const Intersection& crossing) {
 }
 
 /// Whether the plane of a contact is between two triangles: edges that cross and corners that touch
-/// are above no plane of the other's.
+/// are above no plane of the other's. Of a contact of faces that pierce each other there is none.
 bool is_between(const ShapePair& pair, const Contact& contact, const Intersection& crossing) {
-  return is_above(pair.moving, crossing.triangle_moving, {contact.point_moving, -contact.direction},
-                  pair.tolerance.rounding) &&
-         is_above(pair.fixed, crossing.triangle_fixed, {contact.point_fixed, contact.direction},
-                  pair.tolerance.rounding);
+  const double rounding = pair.tolerance.rounding;
+  return (contact.point_fixed - contact.point_moving).dot(contact.direction) >= -2.0 * rounding &&
+         is_above(pair.moving, crossing.triangle_moving, {contact.point_moving, -contact.direction},
+                  rounding) &&
+         is_above(pair.fixed, crossing.triangle_fixed, {contact.point_fixed, contact.direction}, rounding);
 }
 
 }  // namespace

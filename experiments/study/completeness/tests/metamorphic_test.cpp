@@ -119,6 +119,12 @@ TEST(RestScenes, TouchWithDirectionsAlone) {
   expect_directions(make_rest_scene(parts::rest_fit("comb in comb"), 5, 74));
 }
 
+/// Below the middle of two faces at 1e-8 rad, the planes through it seemed to be between both.
+TEST(Metamorphic, FacesThatPierceEachOtherIntersectHoweverTheyAreCut) {
+  const parts::RestScene scene = make_rest_scene(parts::rest_fit("prism in V block"), 202611275, 2152);
+  expect_same_answers(pair_of(scene), 1, scene.text);
+}
+
 TEST(Metamorphic, NothingChangesTheAnswerAtRest) {
   std::uint64_t seed = 0;
   for (const parts::RestFit& fit : parts::rest_fits()) {
