@@ -22,6 +22,7 @@
 namespace lmdbench {
 namespace {
 
+using testing::edge_down;
 using testing::make_body;
 using testing::moved;
 using testing::ShapeScene;
@@ -173,12 +174,7 @@ TEST(Decide, ACornerBelowAFaceHasNoContactWithIt) {
   }
 }
 
-/// Bar along x with its sharp edge down, along the x axis from -1 to 1.
-TriangleMesh edge_down() {
-  return {{{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}},
-          {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}}};
-}
-/// The same below, edge up.
+/// The bar below, edge up.
 TriangleMesh edge_up() {
   return testing::placed(edge_down(), {Vec3::Zero(), Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)});
 }

@@ -23,6 +23,7 @@
 namespace lmdbench {
 namespace {
 
+using testing::edge_down;
 using testing::moved;
 using testing::ShapeScene;
 using testing::sheet_of;
@@ -304,15 +305,10 @@ TEST(JoinContacts, TwoRegionsOfOnePlaneAreOneLmd) {
   }
 }
 
-TriangleMesh bar_on_its_edge() {
-  return {{{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}},
-          {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}}};
-}
-
 TEST(JoinContacts, AChainOverTwoTeethIsOneLmdATooth) {
   const TriangleMesh teeth = merged(translated(make_box({0.04, 1.0, 1.0}), Vec3(0.02, 0.0, -0.5)),
                                     translated(make_box({0.04, 1.0, 1.0}), Vec3(0.17, 0.0, -0.5)));
-  ShapeScene scene(bar_on_its_edge(), teeth);
+  ShapeScene scene(edge_down(), teeth);
   for (const double tilt : {0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-3}) {
     SCOPED_TRACE(tilt);
     LmdSet lmds = scene.lmds(turned_by(tilt, Vec3::UnitY(), Vec3(0.0, 0.0, 0.01)));
@@ -337,7 +333,7 @@ std::size_t count_without(ShapeScene& scene, const Pose& pose, IsLeftOut&& is_le
 
 TEST(JoinContacts, AWayAlongALineLeadsOverThePlacesBetween) {
   // Over the second tooth only the ends are left: no way leads there from the first one.
-  ShapeScene scene(bar_on_its_edge(), sheet_of({"#.#", "#.#", "###"}, 0.4));
+  ShapeScene scene(edge_down(), sheet_of({"#.#", "#.#", "###"}, 0.4));
   const Pose pose = moved(0.0, 0.4, 0.05);
   const auto is_second_part = [](const Contact& c) { return c.dimension == 1 && c.point_fixed.x() > 0.0; };
   EXPECT_EQ(count_without(scene, pose, [](const Contact&) { return false; }), 2u);

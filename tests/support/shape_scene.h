@@ -18,6 +18,12 @@ inline Pose turned_by(double angle, const Vec3& axis, const Vec3& translation) {
   return {translation, Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()))};
 }
 
+/// Bar along x with its sharp edge down, along the x axis from -1 to 1.
+inline TriangleMesh edge_down() {
+  return {{{-1, 0, 0}, {1, 0, 0}, {-1, -0.5, 0.5}, {1, -0.5, 0.5}, {-1, 0.5, 0.5}, {1, 0.5, 0.5}},
+          {{0, 3, 2}, {0, 1, 3}, {0, 5, 1}, {0, 4, 5}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}}};
+}
+
 /// Leads of all features of a shape.
 inline std::vector<FeatureId> leads_of(const Surface& surface, const ShapeComplex& shape) {
   std::vector<FeatureId> leads;

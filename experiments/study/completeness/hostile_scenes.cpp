@@ -175,10 +175,10 @@ std::vector<Pose> laid_poses(const TriangleMesh& moving, const TriangleMesh& fix
 /// Spread so that no two scenes draw the same numbers. Those of the first seven motions are what
 /// found poses were found by.
 std::uint64_t seed_of(Motion motion, std::uint64_t seed, std::size_t index) {
-  constexpr std::uint64_t MOVING = 7;
+  constexpr std::uint64_t FIRST = 7;
   const std::uint64_t which = static_cast<std::uint64_t>(motion);
-  const std::uint64_t spread = (seed * MOVING + which % MOVING) * 0x9E3779B97F4A7C15ULL + index;
-  return which < MOVING ? spread : ~spread;
+  const std::uint64_t spread = (seed * FIRST + which % FIRST) * 0x9E3779B97F4A7C15ULL + index;
+  return which < FIRST ? spread : ~spread;
 }
 
 }  // namespace

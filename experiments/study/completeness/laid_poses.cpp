@@ -15,26 +15,21 @@ using experiments::Random;
 using parts::chance;
 using parts::power_of_ten;
 
-using Corners = std::array<Vec3, 3>;
-
-/// Of any triangle, from any corner on.
-Corners some_corners(const TriangleMesh& mesh, Random& random) {
-  const auto& triangle = mesh.triangles[random.index(mesh.triangles.size())];
-  const std::size_t first = random.index(3);
-  Corners corners;
-  for (std::size_t k = 0; k < 3; ++k)
-    corners[k] = mesh.vertices[static_cast<std::size_t>(triangle[(first + k) % 3])];
-  return corners;
+/// From any corner on.
+Triangle some_corners(const TriangleMesh& mesh, Random& random) {
+  Triangle triangle = mesh.triangle(static_cast<std::int32_t>(random.index(mesh.triangles.size())));
+  std::ranges::rotate(triangle, triangle.begin() + static_cast<std::ptrdiff_t>(random.index(3)));
+  return triangle;
 }
 
 /// Along the first edge; any direction where it has no length.
-Vec3 along(const Corners& corners) {
+Vec3 along(const Triangle& corners) {
   const Vec3 edge = corners[1] - corners[0];
   return edge.isZero(0.0) ? Vec3::UnitX() : edge.stableNormalized();
 }
 
 /// First axis along the first edge, third along the normal.
-Mat3 frame_of(const Corners& corners, bool is_turned_over) {
+Mat3 frame_of(const Triangle& corners, bool is_turned_over) {
   const Vec3 x = along(corners);
   Vec3 z = x.cross(corners[2] - corners[0]);
   z = z.isZero(1e-12) ? x.unitOrthogonal() : z.normalized();
@@ -58,7 +53,7 @@ Mat3 some_axes(Random& random) {
 }  // namespace
 
 Pose laid_pose(const TriangleMesh& moving, const TriangleMesh& fixed, Random& random) {
-  const Corners from = some_corners(moving, random), to = some_corners(fixed, random);
+  const Triangle from = some_corners(moving, random), to = some_corners(fixed, random);
   const std::size_t kind = random.index(5);
   Mat3 turn =
       kind == 0 ? some_axes(random) : Mat3(frame_of(to, kind == 1) * frame_of(from, false).transpose());

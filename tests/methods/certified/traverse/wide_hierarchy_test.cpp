@@ -169,10 +169,8 @@ TEST(PolarCap, OfALineAsShortAsRoundingIsAllDirections) {
       std::size_t shorts = 0;
       for (std::int32_t chain = 0; chain < static_cast<std::int32_t>(shape.regions.straight_edges.size());
            ++chain) {
-        const auto& ends = shape.ends_of_chain(chain);
-        const Vec3 line = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
-                          surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
-        if (line.norm() > 2.0 * length) continue;
+        const Segment line = surface.mesh.segment(shape.ends_of_chain(chain));
+        if ((line[1] - line[0]).norm() > 2.0 * length) continue;
         ++shorts;
         const auto cap = polar_cap(surface, {FeatureKind::EDGE, shape.lead_of_chain(chain)}, &shape);
         ASSERT_TRUE(cap);

@@ -171,10 +171,9 @@ std::optional<PolarCap> cap_of_chain(const Surface& surface, const ShapeComplex&
 std::optional<PolarCap> edge_cap(const Surface& surface, std::int32_t edge, const ShapeComplex* shape) {
   const std::int32_t chain = shape != nullptr ? shape->chain_of(edge) : -1;
   const bool is_plain = shape == nullptr || shape->is_plain_chain(surface, chain);
-  const auto& ends =
-      is_plain ? surface.adjacency.edges[static_cast<std::size_t>(edge)] : shape->ends_of_chain(chain);
-  const Vec3 along = surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
-                     surface.mesh.vertices[static_cast<std::size_t>(ends[0])];
+  const Segment line = surface.mesh.segment(is_plain ? surface.adjacency.edges[static_cast<std::size_t>(edge)]
+                                                     : shape->ends_of_chain(chain));
+  const Vec3 along = line[1] - line[0];
   const double squared_length = along.squaredNorm();
   if (!(squared_length > 0.0)) return std::nullopt;
   const double least_wing = shape != nullptr ? LEAST_WING * shape->regions.extent : 0.0;

@@ -30,9 +30,8 @@ double shortest_wing(const Surface& surface, const ShapeComplex& shape) {
     if (shape.is_corner(v)) shape.for_each_corner_wing(surface, v, take);
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(shape.regions.straight_edges.size()); ++c) {
     shape.for_each_chain_wing(surface, c, take);
-    const auto& ends = shape.ends_of_chain(c);
-    take(surface.mesh.vertices[static_cast<std::size_t>(ends[1])] -
-         surface.mesh.vertices[static_cast<std::size_t>(ends[0])]);
+    const Segment line = surface.mesh.segment(shape.ends_of_chain(c));
+    take(line[1] - line[0]);
   }
   return shortest;
 }
