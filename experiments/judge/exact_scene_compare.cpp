@@ -43,9 +43,7 @@ ExactAgreement compare_with_exact(const Scene& scene, const LmdSet& found,
   const Body& moving = *scene.moving;
   std::vector<ContactTolerance> tolerances;  // their lengths do not depend on the pose
   for (const FixedBody& fixed : scene.fixed)
-    tolerances.push_back(ContactTolerance::of(moving.surface(), moving.prepared<ShapeComplex>(),
-                                              fixed->surface(), fixed->prepared<ShapeComplex>(),
-                                              RigidTransform(), 0.0));
+    tolerances.push_back(ContactTolerance::of(moving, *fixed, RigidTransform(), 0.0));
   const auto is_part_of = [&](const ExactLmd& truth, const Lmd& lmd) {
     return same_contact(lmd, truth, tolerances[static_cast<std::size_t>(truth.fixed_body)]);
   };

@@ -49,9 +49,7 @@ TEST(ConvexBodies, HaveOneLmdAtEveryPose) {
       Pose pose = testing::flush_pose(moving, fixed, random);
       if (is_turned) pose = whole * pose;
       const double apart = nearest_pair(a, b, pose).distance;
-      const ContactTolerance tolerance =
-          ContactTolerance::of(a.surface(), a.prepared<ShapeComplex>(), b.surface(),
-                               b.prepared<ShapeComplex>(), RigidTransform(pose), scene.cutoff);
+      const ContactTolerance tolerance = ContactTolerance::of(a, b, RigidTransform(pose), scene.cutoff);
       if (!(apart > 4.0 * tolerance.rounding)) {
         ++touching;
         continue;

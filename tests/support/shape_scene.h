@@ -65,9 +65,7 @@ class ShapeScene {
   /// The pair is valid until the next call.
   ShapePair at(const Pose& X_WM) {
     X_WM_ = RigidTransform(X_WM);
-    return {{moving_, shape_moving_, X_WM_, true},
-            {fixed_, shape_fixed_, identity_, false},
-            ContactTolerance::of(moving_, shape_moving_, fixed_, shape_fixed_, X_WM_, cutoff_)};
+    return {moving_, shape_moving_, fixed_, shape_fixed_, X_WM_, cutoff_};
   }
   ContactSet contacts(const ShapePair& pair) const {
     ContactSet found;
@@ -86,7 +84,7 @@ class ShapeScene {
   Surface moving_, fixed_;
   ShapeComplex shape_moving_, shape_fixed_;
   double cutoff_;
-  RigidTransform X_WM_, identity_;
+  RigidTransform X_WM_;
 };
 
 }  // namespace lmdbench::testing

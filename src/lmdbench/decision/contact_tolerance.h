@@ -25,6 +25,13 @@ struct ContactTolerance {
 
   static ContactTolerance of(const Surface& moving, const ShapeComplex& moving_shape, const Surface& fixed,
                              const ShapeComplex& fixed_shape, const RigidTransform& X_WM, double cutoff);
+  template <class Body>
+  requires requires(const Body& body) { body.surface(); }
+  static ContactTolerance of(const Body& moving, const Body& fixed, const RigidTransform& X_WM,
+                             double cutoff) {
+    return of(moving.surface(), moving.template prepared<ShapeComplex>(), fixed.surface(),
+              fixed.template prepared<ShapeComplex>(), X_WM, cutoff);
+  }
 
   /// Sine of the angle by which rounding turns a direction between two points.
   double direction_error(double distance) const { return rounding / std::max(distance, rounding); }

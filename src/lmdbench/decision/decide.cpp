@@ -411,7 +411,18 @@ class Decision {
   std::optional<KnownDirection> segment_;  ///< Of chains that are parallel.
 };
 
+/// Of the fixed mesh.
+const RigidTransform IDENTITY;
+
 }  // namespace
+
+ShapePair::ShapePair(const Surface& moving_surface, const ShapeComplex& moving_shape,
+                     const Surface& fixed_surface, const ShapeComplex& fixed_shape,
+                     const RigidTransform& X_WM, double cutoff)
+    : moving{moving_surface, moving_shape, X_WM, true},
+      fixed{fixed_surface, fixed_shape, IDENTITY, false},
+      tolerance(
+          ContactTolerance::of(moving_surface, moving_shape, fixed_surface, fixed_shape, X_WM, cutoff)) {}
 
 void decide(const ShapePair& pair, const FeatureId& on_moving, const FeatureId& on_fixed, ContactSet& found) {
   LMDBENCH_EXPECTS(pair.moving.is_moving && !pair.fixed.is_moving, "sides the wrong way round");

@@ -7,10 +7,13 @@
 
 namespace lmdbench {
 
-/// The two meshes of a decision.
+/// The two meshes of a decision, at a pose; all that is named outlives it.
 struct ShapePair {
   ShapeSide moving, fixed;
   ContactTolerance tolerance;
+
+  ShapePair(const Surface& moving_surface, const ShapeComplex& moving_shape, const Surface& fixed_surface,
+            const ShapeComplex& fixed_shape, const RigidTransform& X_WM, double cutoff);
 };
 
 /// The definition of an LMD (DEFINITION.md) for two features. Appends what they share: nothing, a

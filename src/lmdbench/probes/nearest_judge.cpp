@@ -40,8 +40,7 @@ JudgedPair judged(const NamedTriangles& named, double cutoff) {
   if (named.triangle_moving < 0 || named.triangle_fixed < 0) return result;
   const Surface &moving = named.moving.surface(), &fixed = named.fixed.surface();
   const RigidTransform X_FM(named.X_FM);
-  result.tolerance = ContactTolerance::of(moving, named.moving.prepared<ShapeComplex>(), fixed,
-                                          named.fixed.prepared<ShapeComplex>(), X_FM, cutoff);
+  result.tolerance = ContactTolerance::of(named.moving, named.fixed, X_FM, cutoff);
   const TrianglePairDistance pair = triangle_distance(
       X_FM.triangle(moving.mesh.triangle(named.triangle_moving)), fixed.mesh.triangle(named.triangle_fixed));
   result.distance = std::sqrt(pair.squared_distance);

@@ -183,9 +183,7 @@ TEST(CertifiedCoherence, NoFrameOfASmoothMotionIsMadeAnew) {
     const double angle = 0.25 * std::numbers::pi - 0.0025 * frame;
     const Pose pose{0.59 * Vec3(std::cos(angle), std::sin(angle), 0.0), Eigen::Quaterniond::Identity()};
     const double coordinate =
-        ContactTolerance::of(moving.surface(), moving.prepared<ShapeComplex>(), fixed.surface(),
-                             fixed.prepared<ShapeComplex>(), RigidTransform(pose), scene.cutoff)
-            .coordinates;
+        ContactTolerance::of(moving, fixed, RigidTransform(pose), scene.cutoff).coordinates;
     least_coordinate = std::min(least_coordinate, coordinate);
     largest_coordinate = std::max(largest_coordinate, coordinate);
     WorkCounters of_kept, of_fresh;
@@ -271,7 +269,6 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
   const Surface &moving = scene.moving->surface(), &fixed = scene.fixed[0]->surface();
   const auto& moving_shape = scene.moving->prepared<ShapeComplex>();
   const auto& fixed_shape = scene.fixed[0]->prepared<ShapeComplex>();
-  const RigidTransform identity;
   const double cutoff = 0.3;
   std::mt19937_64 random(8);
   WideScratch scratch;
@@ -285,9 +282,7 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
     WideCounters counters;
     find_wide_pairs(scene.moving->prepared<WideHierarchy>(), scene.fixed[0]->prepared<WideHierarchy>(), query,
                     WideKernel::VECTOR, scratch, counters);
-    const ShapePair before_it{{moving, moving_shape, before, true},
-                              {fixed, fixed_shape, identity, false},
-                              ContactTolerance::of(moving, moving_shape, fixed, fixed_shape, before, cutoff)};
+    const ShapePair before_it(moving, moving_shape, fixed, fixed_shape, before, cutoff);
     const PairFilter first{before_it, cutoff, 1e-9, 1e-5, 1e-8};
     for (const WidePair& pair : scratch.lmd_pairs) {
       const auto [centre, radius] = body_of(moving, pair.a.feature_id());
@@ -309,10 +304,8 @@ TEST(PairFilter, NothingIsAnLmdWhileTheRejectionStands) {
         after.translation = before.point(centre) + displacement - after.rotation * centre;
         const RigidTransform transform(after);
         ContactSet contacts;
-        decide({{moving, moving_shape, transform, true},
-                {fixed, fixed_shape, identity, false},
-                ContactTolerance::of(moving, moving_shape, fixed, fixed_shape, transform, cutoff)},
-               pair.a.feature_id(), pair.b.feature_id(), contacts);
+        decide({moving, moving_shape, fixed, fixed_shape, transform, cutoff}, pair.a.feature_id(),
+               pair.b.feature_id(), contacts);
         const bool is_lmd = !contacts.contacts.empty();
         if (left > 0.0 && angle < certificate.turn) {
           ASSERT_FALSE(is_lmd) << to_string(pair.a.feature_id().kind) << " "

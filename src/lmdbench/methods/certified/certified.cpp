@@ -310,16 +310,12 @@ void Certified::decide_kept(Frame& frame) {
 template <class Join>
 void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const UseVectorTarget use(target_);
-  static const RigidTransform identity;
   const RigidTransform transform(X_WM);
   intersections_.clear();
   crossing_pairs_.clear();
   follow_deformations();
-  const ShapeSide moving{scene_.moving->surface(), shape_moving_, transform, true};
-  const ShapeSide fixed{fixed_.surface, fixed_.shape, identity, false};
-  const ShapePair pair{moving, fixed,
-                       ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
-                                            transform, scene_.cutoff)};
+  const ShapePair pair(scene_.moving->surface(), shape_moving_, fixed_.surface, fixed_.shape, transform,
+                       scene_.cutoff);
   const double radius = hierarchy_moving_.radius, about_origin = hierarchy_moving_.origin.norm();
   const double of_fixed = fixed_.hierarchy.origin.cwiseAbs().maxCoeff() + fixed_.hierarchy.radius;
   const double coordinates =

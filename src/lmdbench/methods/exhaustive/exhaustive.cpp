@@ -88,14 +88,10 @@ void Exhaustive::find_intersections(const ShapePair& pair, WorkCounters& counter
 
 template <class With>
 void Exhaustive::at_pose(const Pose& X_WM, WorkCounters& counters, With&& with) {
-  static const RigidTransform identity;
   const RigidTransform transform(X_WM);
   const Body &a = *scene_.moving, &b = scene_.fixed_body();
-  const ShapeSide moving{a.surface(), a.prepared<ShapeComplex>(), transform, true};
-  const ShapeSide fixed{b.surface(), b.prepared<ShapeComplex>(), identity, false};
-  const ShapePair pair{moving, fixed,
-                       ContactTolerance::of(moving.surface, moving.shape, fixed.surface, fixed.shape,
-                                            transform, scene_.cutoff)};
+  const ShapePair pair(a.surface(), a.prepared<ShapeComplex>(), b.surface(), b.prepared<ShapeComplex>(),
+                       transform, scene_.cutoff);
   intersections_.clear();
   contacts_.clear();
   find_intersections(pair, counters);

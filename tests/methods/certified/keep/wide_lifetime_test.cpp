@@ -246,26 +246,35 @@ TEST(WideLifetime, TouchingIsAskedForLanesOfFacesAlone) {
   EXPECT_EQ(touch(1u << 1), 0u);
 }
 
-TEST(WideLifetime, DirectionOfTheMotionCounts) {
-  // A lane beyond the cutoff: its rejection is valid for few frames of approach, else for ever.
-  std::mt19937_64 random(1);
-  LaneSample a(random), b(random);
-  a.centre = Vec3::Zero();
-  b.centre = {1.0, 0.0, 0.0};
-  a.axis = Vec3::UnitX();
-  b.axis = -Vec3::UnitX();
-  a.radius = b.radius = a.thickness = b.thickness = 0.1;
+/// Two spheres of radius 0.1 whose cones face each other, 0.6 beyond the cutoff.
+struct BeyondCutoff {
   WideNode home{}, node{};
-  a.store(home, 0);
-  b.store(node, 0);
-  const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
-  const WideLimits limits{0.2F, 0.0F, 1e-6F};
   WideForecast forecast;
-  forecast.search_distance = 0.2F;
-  forecast.extent = 4.0F;
-  const auto frames = [&](float speed) {
-    return test_lanes_lifetime(node, probe, limits, forecast, {false, {speed, 0.0F, 0.0F}, 0u}).frames;
-  };
+
+  BeyondCutoff() {
+    std::mt19937_64 random(1);
+    LaneSample a(random), b(random);
+    a.centre = Vec3::Zero();
+    b.centre = {1.0, 0.0, 0.0};
+    a.axis = Vec3::UnitX();
+    b.axis = -Vec3::UnitX();
+    a.radius = b.radius = a.thickness = b.thickness = 0.1;
+    a.store(home, 0);
+    b.store(node, 0);
+    forecast.search_distance = 0.2F;
+    forecast.extent = 4.0F;
+  }
+  /// Of a motion of the first one at `speed` towards the second.
+  WideLifetimes plan(float speed) const {
+    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+    return test_lanes_lifetime(node, probe, {0.2F, 0.0F, 1e-6F}, forecast, {false, {speed, 0.0F, 0.0F}, 0u});
+  }
+};
+
+TEST(WideLifetime, DirectionOfTheMotionCounts) {
+  // Its rejection is valid for few frames of approach, else for ever.
+  const BeyondCutoff pair;
+  const auto frames = [&](float speed) { return pair.plan(speed).frames; };
   EXPECT_GE(frames(0.02F), 0.99F * 0.6F * (1.0F - DEVIATION_SHARE) / 0.02F);
   EXPECT_LE(frames(0.02F), 0.6F / 0.02F);
   EXPECT_EQ(frames(-0.02F), static_cast<float>(MotionForecast::LONGEST_PLAN));
@@ -300,29 +309,14 @@ TEST(WideLifetime, ATurnCountsByHowFarItMovesTheChild) {
 
 TEST(WideLifetime, WhatTremblesIsPlannedByDeviationsAlone) {
   // Recent deviations exceed the slack; a plan without a forecast motion still gets all of it.
-  std::mt19937_64 random(1);
-  LaneSample a(random), b(random);
-  a.centre = Vec3::Zero();
-  b.centre = {1.0, 0.0, 0.0};
-  a.axis = Vec3::UnitX();
-  b.axis = -Vec3::UnitX();
-  a.radius = b.radius = a.thickness = b.thickness = 0.1;
-  WideNode home{}, node{};
-  a.store(home, 0);
-  b.store(node, 0);
-  const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
-  WideForecast forecast;
-  forecast.search_distance = 0.2F;
-  forecast.base = forecast.drift = 1.0F;
-  forecast.extent = 4.0F;
-  const auto plan = [&](float speed) {
-    return test_lanes_lifetime(node, probe, {0.2F, 0.0F, 1e-6F}, forecast, {false, {speed, 0.0F, 0.0F}, 0u});
-  };
-  EXPECT_EQ(plan(0.0F).frames, static_cast<float>(MotionForecast::LONGEST_PLAN));
-  EXPECT_NEAR(plan(0.0F).deviation_budget, 0.6F, 1e-4F);
+  BeyondCutoff pair;
+  pair.forecast.base = pair.forecast.drift = 1.0F;
+  const WideLifetimes still = pair.plan(0.0F), moved = pair.plan(0.02F);
+  EXPECT_EQ(still.frames, static_cast<float>(MotionForecast::LONGEST_PLAN));
+  EXPECT_NEAR(still.deviation_budget, 0.6F, 1e-4F);
   // With one, motion and deviations share the slack.
-  EXPECT_NEAR(plan(0.02F).frames, LEAST_SHARE * 0.6F / 0.02F, 0.01F);
-  EXPECT_NEAR(plan(0.02F).deviation_budget, (1.0F - LEAST_SHARE) * 0.6F, 1e-4F);
+  EXPECT_NEAR(moved.frames, LEAST_SHARE * 0.6F / 0.02F, 0.01F);
+  EXPECT_NEAR(moved.deviation_budget, (1.0F - LEAST_SHARE) * 0.6F, 1e-4F);
 }
 
 }  // namespace
