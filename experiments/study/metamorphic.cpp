@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <study/completeness/laid_poses.h>
 #include <study/completeness/metamorphic.h>
 #include <study/pieces.h>
 #include <study/studies.h>
@@ -37,9 +38,9 @@ std::vector<std::string> names_of(const std::string& generator) {
   std::vector<std::string> names;
   if (generator == "rest")
     for (const parts::RestFit& fit : parts::rest_fits()) names.emplace_back(fit.name);
-  else
-    for (const parts::PartsKind& kind : parts::parts_kinds(parts::HARD_GENERATORS.at(generator)))
-      names.emplace_back(kind.name);
+  for (const auto& [name, kinds] : parts::HARD_GENERATORS)
+    if (generator == name || generator == "laid")
+      for (const parts::PartsKind& kind : parts::parts_kinds(kinds)) names.emplace_back(kind.name);
   return names;
 }
 
@@ -50,7 +51,10 @@ ScenePair make_pair(const MetamorphicChoice& choice, const std::string& name, st
   const parts::Coordinates coordinates = parts::ALL_COORDINATES[index % std::size(parts::ALL_COORDINATES)];
   const parts::PartsScene scene =
       parts::make_parts_scene({name, coordinates, choice.seed, index, parts::PoseFamily::ANY});
-  return pair_of(scene.scene, scene.poses[index % scene.poses.size()]);
+  ScenePair pair = pair_of(scene.scene, scene.poses[index % scene.poses.size()]);
+  experiments::Random random(choice.seed * 0x9E3779B97F4A7C15ULL + index);
+  if (choice.generator == "laid") pair.X_WM = laid_pose(pair.moving, pair.fixed, random);
+  return pair;
 }
 
 int judge_all(const MetamorphicChoice& choice) {
@@ -109,14 +113,16 @@ void lmdbench::study::add_metamorphic(CLI::App& app, Run& chosen) {
   CLI::App* command = app.add_subcommand(
       "metamorphic", "Does the answer stay when meshes are swapped, turned, scaled, cut otherwise?");
   const auto choice = std::make_shared<MetamorphicChoice>();
-  std::vector<std::string> generators = {"rest"}, names;
+  std::vector<std::string> generators = {"rest", "laid"}, names;
   for (const auto& [name, generator] : parts::HARD_GENERATORS) generators.push_back(name);
   for (const Change& change : metamorphic_changes()) names.emplace_back(change.name);
   command->add_option("--poses", choice->poses, "Of each kind of parts");
   command->add_option("--seed", choice->seed, "Of the random numbers");
   command
-      ->add_option("--generator", choice->generator,
-                   "rest (fits with gaps of 0 to what is seen), parts, solids or shapes (as of `parts`)")
+      ->add_option(
+          "--generator", choice->generator,
+          "rest (fits with gaps of 0 to what is seen), parts, solids or shapes (as of `parts`), laid "
+          "(all of these corner on corner, edge on edge)")
       ->check(CLI::IsMember(generators));
   command->add_option("--parts", choice->parts,
                       "A fit or kind of the generator, may be repeated; all without it");

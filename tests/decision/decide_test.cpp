@@ -371,6 +371,41 @@ TEST(Decide, SaddlesPitsAndReflexChainsShareNothing) {
   EXPECT_GT(contacts, 50u);
 }
 
+TEST(Decide, PlacesThatCoincideHaveTheContactsOfThoseThatTouch) {
+  // Rounding says whether points are at one place or just not, and in which direction.
+  struct Case {
+    TriangleMesh moving, fixed;
+    Pose pose;
+    const char* kind;
+  };
+  const TriangleMesh cube = make_box({1.0, 1.0, 1.0});
+  const Case cases[] = {
+      {cube, cube, moved(1.0, 1.0, 1.0), "VV0"},
+      {cube, cube, moved(1.0, 0.25, 1.0), "EE1"},
+      {on_a_corner(), cube, moved(0.5, 0.125, 0.5), "VE0"},
+      {edge_down(), edge_up(), turned_by(1.0, Vec3::UnitZ(), Vec3::Zero()), "EE0"},
+      {edge_down(), sheet_of({"#"}, 4.0), turned_by(1.0, Vec3::UnitZ(), Vec3(2.0, 0.1, 0.0)), "EE0"}};
+  for (const Case& one : cases)
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      SCOPED_TRACE(::testing::Message() << one.kind << " seed " << seed);
+      const Pose whole = seed == 0 ? Pose{} : testing::pose_of_seed(seed);
+      ShapeScene forward(one.moving, testing::placed(one.fixed, whole)),
+          backward(testing::placed(one.fixed, whole), one.moving);
+      const Pose pose = whole * one.pose;
+      const ContactSet there = forward.contacts(pose), back = backward.contacts(pose.inverse());
+      EXPECT_EQ(std::ranges::count(kinds_of(there, 1e-14), one.kind), 1);
+      ASSERT_EQ(there.contacts.size(), back.contacts.size());
+      for (const Contact& c : there.contacts)
+        EXPECT_TRUE(std::ranges::any_of(back.contacts,
+                                        [&](const Contact& d) {
+                                          return d.moving == c.fixed && d.fixed == c.moving &&
+                                                 d.dimension == c.dimension &&
+                                                 (pose.rotation * d.direction + c.direction).norm() < 1e-9;
+                                        }))
+            << kind_of(c) << " along " << c.direction.transpose();
+    }
+}
+
 TEST(Decide, BothWaysRoundTheContactsAreTheSame) {
   std::mt19937_64 random(9);
   const TriangleMesh a = make_l_block(1.0),

@@ -7,6 +7,7 @@
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/shape/shape_complex.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -91,6 +92,7 @@ struct Contact {
   double direction_error = 0.0;
   double fall = 0.0;       ///< Sine of a slope down that rounding may have hidden at this minimum.
   double least_gap = 0.0;  ///< Least distance over the contact, negative where it crosses [m].
+  double change = 0.0;     ///< Of parallel chains, of the vector between them [m].
   double measure = 0.0;    ///< Length [m] or area [m^2].
   std::array<Vec3, 2> ends_moving, ends_fixed;     ///< Of segments.
   std::uint32_t first_piece = 0, piece_count = 0;  ///< Of polygons: in ContactSet::pieces.
@@ -102,10 +104,12 @@ struct Contact {
   int index = 0;           ///< Of critical pairs, where they are asked for.
   bool is_basin = false;   ///< Nothing round either feature is nearer where the index was taken.
 
-  /// Not where edges along each other or corners touch.
+  /// Not where edges along each other or corners touch, nor beside edges that are not quite
+  /// parallel.
   bool knows_direction(double rounding) const {
     if (direction_error >= NO_DIRECTION) return false;
-    return direction_error <= LARGEST_KNOWN_ERROR || distance > TOUCHING_SHARE * rounding;
+    return direction_error <= LARGEST_KNOWN_ERROR ||
+           distance > std::max(TOUCHING_SHARE * rounding, change / LARGEST_KNOWN_ERROR);
   }
 };
 

@@ -33,6 +33,8 @@ constexpr double CROSSING_ROUNDING = 1.0 / 16.0;
 constexpr double LARGEST_CROSSING_SLACK = 1e-6;
 /// Sine above which a direction between points must be in both cones at once; below face angles.
 constexpr double LARGEST_SINGLE_ERROR = 1e-3;
+/// Pseudo-normals that differ by less say not where two features face each other.
+constexpr double LEAST_FACING = 1e-3;
 /// Slack of the box or triangle round a region, in roundings; its own condition has less.
 constexpr double BOUND_ROUNDINGS = 8.0;
 
@@ -60,7 +62,7 @@ class Decision {
   bool has_area(const Plane& plane) const { return !plane.normal.isZero(0.0); }
   bool near(const ShapeSide& /*from*/, const Vec3& /*p*/, const Vec3& /*q*/, const Vec3& d) {
     distance_ = d.norm();
-    return distance_ <= tolerance_.reach && distance_ > 0.0;
+    return distance_ <= tolerance_.reach;
   }
   bool above(const ShapeSide& /*from*/, double height, const auto& /*gradient*/) const {
     return height > -tolerance_.rounding;
@@ -105,9 +107,7 @@ class Decision {
     const bool is_far = CROSSING_ROUNDING * distance_ > x.sine * shortest;
     Vec3 u = is_far ? Vec3(d / distance_) : Vec3(x.product / std::sqrt(x.squared_product));
     if (std::abs(d.dot(u)) <= tolerance_.rounding) {
-      const Vec3 outwards = moving_.direction(
-          moving_.surface.pseudo_normal({FeatureKind::EDGE, moving_.shape.lead_of_chain(f_.index)}));
-      if (u.dot(outwards) < 0.0) u = -u;
+      if (u.dot(facing()) < 0.0) u = -u;
     } else if (d.dot(u) < 0.0) {
       u = -u;
     }
@@ -118,7 +118,7 @@ class Decision {
 
   /// For BetweenPoints and SquareToLine.
   bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& d, const auto& /*how*/) const {
-    return admits(side, feature_of(side), d / distance_, between_points(distance_));
+    return is_touching(distance_) || admits(side, feature_of(side), d / distance_, between_points(distance_));
   }
   bool in_cone(const ShapeSide& side, const FeatureId& /*lead*/, const Vec3& u,
                const AlongNormal& /*how*/) const {
@@ -133,16 +133,18 @@ class Decision {
   // Pairs that satisfy all.
 
   void share_points(const Vec3& p, const Vec3& q, const Vec3& d) {
-    if (const auto both = direction_between(d / distance_, tolerance_.direction_error(distance_)))
+    if (const auto both = direction_between(d, distance_, tolerance_.rounding))
       add_points(p, q, both->u, distance_, both->error, fall_of(*both, distance_));
   }
 
   void share_foot(const ShapeSide& of_corner, const ShapeSide& of_chain, const Vec3& p, const Vec3& q,
                   const Line& line, double parameter) {
-    const Vec3 u = (q - p) / distance_;
-    if (end_leads_down(of_chain, line, parameter, tolerance_.rounding, -u, distance_)) return;
     const bool forward = of_corner.is_moving;
-    if (const auto both = direction_between(forward ? u : Vec3(-u), tolerance_.direction_error(distance_)))
+    const Vec3 d = q - p;
+    if (!is_touching(distance_) &&
+        end_leads_down(of_chain, line, parameter, tolerance_.rounding, -d / distance_, distance_))
+      return;
+    if (const auto both = direction_between(forward ? d : Vec3(-d), distance_, tolerance_.rounding))
       add_points(forward ? p : q, forward ? q : p, both->u, distance_, both->error,
                  fall_of(*both, distance_));
   }
@@ -234,8 +236,33 @@ class Decision {
   PolarSlack between_points(double distance) const {
     return {tolerance_.rounding, tolerance_.rounding / distance};
   }
+  /// The vector between points says nothing of their direction: it may be zero.
+  bool is_touching(double distance) const {
+    return distance <= Contact::TOUCHING_SHARE * tolerance_.rounding;
+  }
+
   /// Direction of a contact between points; next to touch it is the one that both features admit.
-  std::optional<KnownDirection> direction_between(const Vec3& u, double error) const {
+  /// @param d  known to `spare`; sums of pseudo-normals stand for it where the points touch
+  std::optional<KnownDirection> direction_between(const Vec3& d, double distance, double spare) const {
+    if (!is_touching(distance)) return direction_about(d / distance, std::min(1.0, spare / distance));
+    const Vec3 u = facing();
+    return direction_about(u.isZero(LEAST_FACING) ? Vec3::UnitX() : Vec3(u.normalized()), 1.0);
+  }
+  /// Sum of the pseudo-normals of two corners or chains, or that of the one that has an outer side.
+  Vec3 facing() const {
+    const auto of_mesh = [&](const ShapeSide& side) -> FeatureId {
+      const auto& [kind, index] = feature_of(side);
+      return {kind, kind == FeatureKind::EDGE ? side.shape.lead_of_chain(index) : index};
+    };
+    const bool both =
+        moving_.surface.has_outer_side(of_mesh(moving_)) == fixed_.surface.has_outer_side(of_mesh(fixed_));
+    Vec3 sum = Vec3::Zero();
+    for (const ShapeSide* side : {&moving_, &fixed_})
+      if (both || side->surface.has_outer_side(of_mesh(*side)))
+        sum += side->sign() * side->direction(side->surface.pseudo_normal(of_mesh(*side)));
+    return sum;
+  }
+  std::optional<KnownDirection> direction_about(const Vec3& u, double error) const {
     // A smaller error moves nothing by more than the tolerance over the meshes.
     if (error * tolerance_.coordinates <= tolerance_.known) return KnownDirection{u, error};
     const double tilt = tolerance_.largest_tilt;
@@ -349,15 +376,17 @@ class Decision {
     contact.ends_fixed = {on_fixed(begin), on_fixed(end)};
     const Vec3 d0 = contact.ends_fixed[0] - contact.ends_moving[0],
                d1 = contact.ends_fixed[1] - contact.ends_moving[1];
-    if ((d1 - d0).norm() > tolerance_.known) return;
+    contact.change = (d1 - d0).norm();
+    if (contact.change > tolerance_.known) return;
     const Vec3 between = 0.5 * (d0 + d1), d = between - between.dot(w) * w;
     const double distance = d.norm();
-    if (!(distance > 0.0) || distance > tolerance_.reach) return;
-    const Vec3 u = d / distance;
-    const PolarSlack slack{tolerance_.rounding, tolerance_.largest_tilt + tolerance_.rounding / distance};
-    if (!admits(moving_, f_, u, slack) || !admits(fixed_, g_, -u, slack)) return;
-    const auto both =
-        direction_between(u, std::min(1.0, (tolerance_.rounding + (d1 - d0).norm()) / distance));
+    if (distance > tolerance_.reach) return;
+    if (!is_touching(distance)) {
+      const Vec3 u = d / distance;
+      const PolarSlack slack{tolerance_.rounding, tolerance_.largest_tilt + tolerance_.rounding / distance};
+      if (!admits(moving_, f_, u, slack) || !admits(fixed_, g_, -u, slack)) return;
+    }
+    const auto both = direction_between(d, distance, tolerance_.rounding + contact.change);
     if (!both) return;
     contact.least_gap = std::min({d0.norm(), d1.norm(), distance});
     contact.measure = end - begin;
