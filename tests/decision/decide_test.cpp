@@ -384,7 +384,8 @@ TEST(Decide, PlacesThatCoincideHaveTheContactsOfThoseThatTouch) {
       {cube, cube, moved(1.0, 0.25, 1.0), "EE1"},
       {on_a_corner(), cube, moved(0.5, 0.125, 0.5), "VE0"},
       {edge_down(), edge_up(), turned_by(1.0, Vec3::UnitZ(), Vec3::Zero()), "EE0"},
-      {edge_down(), sheet_of({"#"}, 4.0), turned_by(1.0, Vec3::UnitZ(), Vec3(2.0, 0.1, 0.0)), "EE0"}};
+      {edge_down(), sheet_of({"#"}, 4.0), turned_by(1.0, Vec3::UnitZ(), Vec3(2.0, 0.1, 0.0)), "EE0"},
+      {edge_down(), sheet_of({"#"}, 4.0, false), turned_by(1.0, Vec3::UnitZ(), Vec3(2.0, 0.1, 0.0)), "EE0"}};
   for (const Case& one : cases)
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       SCOPED_TRACE(::testing::Message() << one.kind << " seed " << seed);

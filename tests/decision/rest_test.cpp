@@ -93,23 +93,6 @@ TEST(Rest, ABoxInAnInnerCornerHasOneLmdAWall) {
   }
 }
 
-TEST(Rest, AWallThatLeansWithinTheToleranceKeepsItsLmd) {
-  // The box's edge touches the wall's at the floor and leaves it by less than the tolerance: the
-  // gap's direction is unknown, and it brings the floor's contacts and the wall's together in none.
-  std::mt19937_64 random(47);
-  for (int k = 0; k < 100; ++k) {
-    const double lean = std::pow(10.0, uniform(random, -10.0, -7.5));
-    TriangleMesh box = translated(make_box({0.4, 0.4, 0.4}), Vec3::Constant(0.2)),
-                 corner = inner_corner(1.0, 1.0);
-    for (Vec3& p : box.vertices) p.x() += lean * p.z();
-    box.planar_tolerance = corner.planar_tolerance = 1e-7;
-    const Pose whole = k % 4 == 0 ? Pose{} : testing::pose_of_seed(k);
-    ShapeScene scene(std::move(box), testing::placed(std::move(corner), whole), 0.1);
-    SCOPED_TRACE(::testing::Message() << "pose " << k << " lean " << lean);
-    expect_lmds(scene, whole, whole, {{0.0, -Vec3::UnitX()}, {0.0, -Vec3::UnitZ()}}, lean);
-  }
-}
-
 TEST(Rest, AHookThatRestsKeepsTheLmdOfItsLeg) {
   std::mt19937_64 random(45);
   for (int k = 0; k < 300; ++k) {

@@ -4,7 +4,9 @@
 #include <lmdbench/methods/registry.h>
 
 #include <gtest/gtest.h>
+#include <study/completeness/laid_poses.h>
 #include <study/completeness/metamorphic.h>
+#include <support/parts/parts_scenes.h>
 
 #include <string>
 
@@ -123,6 +125,21 @@ TEST(RestScenes, TouchWithDirectionsAlone) {
 TEST(Metamorphic, FacesThatPierceEachOtherIntersectHoweverTheyAreCut) {
   const parts::RestScene scene = make_rest_scene(parts::rest_fit("prism in V block"), 202611275, 2152);
   expect_same_answers(pair_of(scene), 1, scene.text);
+}
+
+/// Of parts in single precision: an edge along an edge, whose gap grows from nothing to less than
+/// the tolerance, took from a wall the points that make its contact a minimum.
+TEST(Metamorphic, AWallThatLeansWithinTheToleranceKeepsItsLmd) {
+  constexpr std::uint64_t LAID_SEED = 71;
+  constexpr std::size_t INDEX = 2;
+  for (const char* kind : {"L bracket on I beam", "ridge in V-block"}) {
+    const parts::PartsScene scene = parts::make_parts_scene(
+        {kind, parts::ALL_COORDINATES[INDEX], LAID_SEED, INDEX, parts::PoseFamily::ANY});
+    ScenePair pair = pair_of(scene.scene, {});
+    experiments::Random random(LAID_SEED * 0x9E3779B97F4A7C15ULL + INDEX);
+    pair.X_WM = laid_pose(pair.moving, pair.fixed, random);
+    expect_same_answers(pair, 1, kind);
+  }
 }
 
 TEST(Metamorphic, NothingChangesTheAnswerAtRest) {
