@@ -119,9 +119,8 @@ std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(std::span<
 }
 
 bool TouchingContacts::hold(const RestingRegions& resting) const {
-  const std::span<const Entry> of_moving =
-      entries_of(entries_, &FeaturePair::first, {FeatureKind::FACE, resting.moving});
-  return std::ranges::any_of(entries_of(of_moving, &FeaturePair::second, {FeatureKind::FACE, resting.fixed}),
+  const std::span<const Entry> of_moving = entries_of(entries_, &FeaturePair::first, resting.on_moving);
+  return std::ranges::any_of(entries_of(of_moving, &FeaturePair::second, resting.on_fixed),
                              [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
 }
 

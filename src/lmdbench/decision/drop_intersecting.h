@@ -19,7 +19,8 @@ namespace lmdbench {
 /// touch at most.
 struct RestingRegions {
   std::int32_t moving, fixed;
-  Eigen::AlignedBox3d shared_W;  ///< Holds all that they share; world.
+  FeatureId on_moving, on_fixed;  ///< What touches: the region, or the only chain of it that does.
+  Eigen::AlignedBox3d shared_W;   ///< Holds all that they share; world.
 };
 
 /// Regions at rest on each other whose triangles were not compared: there may be a million pairs,
@@ -46,7 +47,7 @@ class TouchingContacts {
     return !for_each_at(crossing, [](const Contact&) { return false; });
   }
 
-  /// Whether a contact of both regions is at all that they share.
+  /// Whether a contact of what touches is at all that both share.
   bool hold(const RestingRegions& resting) const;
 
   bool empty() const { return entries_.empty(); }

@@ -204,6 +204,25 @@ TEST(FlatScenes, TrianglesOfFacesAtRestAreNotCompared) {
   }
 }
 
+TEST(FlatScenes, TrianglesOfWallsAtRestAreNotCompared) {
+  // Of the box's walls a quarter of a thousand triangles are next to the plate's, either way round.
+  const TriangleMesh box = make_box({0.1, 0.1, 0.05}, 4), plate = make_box({0.4, 0.4, 0.05}, 16);
+  for (const bool box_moves : {true, false}) {
+    const Scene scene = make_scene(box_moves ? box : plate, box_moves ? plate : box, 0.02);
+    FlatComparison pair(scene);
+    for (const double gap : {0.0, 1e-12, 1e-9}) {
+      Pose pose{Vec3(0.01, 0.0, 0.05 + gap), Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vec3::UnitZ()))};
+      if (!box_moves) pose = pose.inverse();
+      pair.check(pose);
+      LmdSet lmds;
+      WorkCounters counters;
+      make_method("certified", scene)->search(pose, lmds, counters);
+      EXPECT_EQ(lmds.size(), 1u) << text(lmds);
+      EXPECT_LT(counters[Certified::Counter::TRIANGLE_DISTANCES], 20u) << gap;
+    }
+  }
+}
+
 TEST(FlatScenes, FacesAtRestOfPartsThatIntersectBesideAreCompared) {
   // On the floor of the notch, and in its wall by more than rounding or less.
   FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_l_block(0.4), 0.02));

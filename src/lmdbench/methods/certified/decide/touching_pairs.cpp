@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace lmdbench {
@@ -31,6 +32,10 @@ constexpr std::size_t FEW_CORNERS = 4;
 /// intersect where it is wider than this many roundings.
 constexpr double MARGIN_IN_TOUCHES = 2.0, CLEAR_ROUNDINGS = 4.0;
 
+/// Sine of the angle above which what a wall shares with the plane that it stands on is its edge,
+/// to a few hundred roundings: less than the tolerance.
+constexpr double LEAST_SINE_OF_WALL = 0.01;
+
 /// The exact kernel measures crossings along less than this part of the triangles' longest side:
 /// pieces weigh in a contact's middle by their lengths, so where all are short errors would count.
 constexpr double LEAST_CROSSING_LENGTH = 1e-4;
@@ -44,6 +49,16 @@ Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
 Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
   const auto& ends = side.shape.ends_of_chain(chain);
   return side.vertex(ends[1]) - side.vertex(ends[0]);
+}
+
+bool is_on_chain(const ShapeSide& side, std::int32_t vertex, std::int32_t chain) {
+  return std::ranges::any_of(side.surface.adjacency.vertex_triangles[vertex], [&](std::int32_t t) {
+    return std::ranges::any_of(
+        side.surface.adjacency.triangle_edges[static_cast<std::size_t>(t)], [&](std::int32_t e) {
+          const auto& ends = side.surface.adjacency.edges[static_cast<std::size_t>(e)];
+          return side.shape.chain_of(e) == chain && (ends[0] == vertex || ends[1] == vertex);
+        });
+  });
 }
 
 /// Gap between points and a plane, with the axis from the points towards it.
@@ -304,6 +319,16 @@ struct TouchingPairs::Half {
     return other.shape != nullptr ? gap_to(plane, other.side, *other.shape)
                                   : gap_to(plane, other.side.triangle(other.lead));
   }
+  Vec3 normal() const { return side.plane(region).normal; }
+  /// Least height of its corners over another region's plane; of one that is more than `enough`
+  /// below it, that of any such corner.
+  double height_over(const Half& base, double enough) const {
+    const Plane plane = base.side.plane(base.region);
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::int32_t v : shape->corners)
+      if ((least = std::min(least, plane.height(side.vertex(v)))) < -enough) break;
+    return least;
+  }
   /// The faces that are near to points of the world.
   void find_faces_near(std::span<const Vec3> points, double within, std::vector<std::int32_t>& faces) const {
     if (shape == nullptr) return faces.assign(1, lead);
@@ -331,12 +356,31 @@ Certificate TouchingPairs::decide_regions(Frame& frame, const WidePair& pair) {
         gap.gap > margin)
       return {gap.gap - margin, gap.axis};
   }
-  const bool is_noted = note_along_borders(frame, m, f);
-  if (const auto resting = is_noted ? find_rest(frame, m, f) : std::nullopt)
+  decide_near_regions(frame, m, f);
+  return {};
+}
+
+/// Where borders tell what is within touch, triangles are compared for what intersects alone, and
+/// not at all where nothing can, or as long as a contact stands for what touches.
+void TouchingPairs::decide_near_regions(Frame& frame, const Half& m, const Half& f) {
+  if (!m.has_plain_border() || !f.has_plain_border()) return decide_triangles_of(frame, m, f, false);
+  const double rounding = frame.pair.tolerance.rounding;
+  const double of_m = m.height_over(f, rounding), of_f = f.height_over(m, rounding);
+  const bool is_opposed = are_opposed(frame, m, f);
+  if (!is_opposed &&
+      (std::max(of_m, of_f) < -rounding || m.normal().cross(f.normal()).norm() < LEAST_SINE_OF_WALL))
+    return decide_triangles_of(frame, m, f, false);
+  note_along_borders(frame, m, f);
+  if (std::max(of_m, of_f) > CLEAR_ROUNDINGS * rounding) return;
+  std::optional<RestingRegions> resting;
+  if (frame.crossing_pairs == nullptr)
+    resting = is_opposed     ? find_rest(frame, m, f)
+              : of_m >= of_f ? find_chain_at_rest(frame, m, f)
+                             : find_chain_at_rest(frame, f, m);
+  if (resting)
     frame.resting.push_back(*resting);
   else
-    decide_triangles_of(frame, m, f, is_noted);
-  return {};
+    decide_triangles_of(frame, m, f, true);
 }
 
 /// Decides the triangles of the one with more corners near the other, against those of the other
@@ -371,39 +415,44 @@ void TouchingPairs::decide_triangles_of(Frame& frame, const Half& m, const Half&
   }
 }
 
-/// Notes corners and chains within touch of each other where both regions have all of theirs on
-/// their borders and may rest on each other; else false. (For others it does not pay: the border of
-/// a gear's face has thousands of chains.)
-bool TouchingPairs::note_along_borders(Frame& frame, const Half& m, const Half& f) {
-  if (!m.has_plain_border() || !f.has_plain_border() || !are_opposed(frame, m, f)) return false;
+/// Notes corners and chains within touch of each other, of regions that have all of theirs on their
+/// borders. (Of regions whose triangles are compared for it this does not pay: the border of a
+/// gear's face has thousands of chains.)
+void TouchingPairs::note_along_borders(Frame& frame, const Half& a, const Half& b) {
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
-  const auto note_corners_beside_chains = [&](const Half& of_corners, const Half& of_chains) {
-    for (const std::int32_t v : of_corners.shape->corners) {
+  const bool b_has_fewer = b.chains().size() < a.chains().size();
+  const Half &few = b_has_fewer ? b : a, &many = b_has_fewer ? a : b;
+  const auto ends_of = [](const Half& half, std::int32_t chain) {
+    return half.side.shape.ends_of_chain(chain);
+  };
+  const auto segment_of = [&](const Half& half, std::int32_t chain) {
+    const auto [begin, end] = ends_of(half, chain);
+    return Segment{half.side.vertex(begin), half.side.vertex(end)};
+  };
+  const auto note_ends = [&](const Half& of_corners, std::int32_t of_ends, const Half& of_chain,
+                             std::int32_t chain) {
+    const Segment segment = segment_of(of_chain, chain);
+    for (const std::int32_t v : ends_of(of_corners, of_ends)) {
       const Vec3 p = of_corners.side.vertex(v);
+      if (point_segment_distance(p, segment).squared_distance > margin * margin) continue;
       const FeatureId corner{FeatureKind::VERTEX, v};
-      ++frame.pairs;
-      of_chains.for_each_chain_near(p, p, margin, [&](std::int32_t chain) {
-        ++frame.pairs;
-        const auto& ends = of_chains.side.shape.ends_of_chain(chain);
-        const Segment segment{of_chains.side.vertex(ends[0]), of_chains.side.vertex(ends[1])};
-        if (point_segment_distance(p, segment).squared_distance > margin * margin) return;
-        ask(of_corners.side, corner, {FeatureKind::EDGE, of_chains.side.shape.lead_of_chain(chain)}, asked_);
-        if (of_corners.side.is_moving)
-          for (const std::int32_t w : ends) ask(of_corners.side, corner, {FeatureKind::VERTEX, w}, asked_);
-      });
+      ask(of_corners.side, corner, {FeatureKind::EDGE, of_chain.side.shape.lead_of_chain(chain)}, asked_);
+      // Pairs of corners are asked for once, from the moving mesh.
+      if (of_corners.side.is_moving)
+        for (const std::int32_t w : ends_of(of_chain, chain))
+          ask(of_corners.side, corner, {FeatureKind::VERTEX, w}, asked_);
     }
   };
-  note_corners_beside_chains(m, f);
-  note_corners_beside_chains(f, m);
-  for (const std::int32_t chain : m.chains()) {
-    const auto& ends = m.side.shape.ends_of_chain(chain);
+  for (const std::int32_t chain : few.chains()) {
+    const Segment segment = segment_of(few, chain);
     ++frame.pairs;
-    f.for_each_chain_near(m.side.vertex(ends[0]), m.side.vertex(ends[1]), margin, [&](std::int32_t other) {
+    many.for_each_chain_near(segment[0], segment[1], margin, [&](std::int32_t other) {
       ++frame.pairs;
-      note_if_parallel(frame, chain, other, asked_);
+      note_ends(few, chain, many, other);
+      note_ends(many, other, few, chain);
+      note_if_parallel(frame, few.side.is_moving ? chain : other, few.side.is_moving ? other : chain, asked_);
     });
   }
-  return true;
 }
 
 /// Whether two regions face each other in parallel planes.
@@ -413,10 +462,8 @@ bool TouchingPairs::are_opposed(const Frame& frame, const Half& m, const Half& f
          of_moving.cross(of_fixed).norm() <= 2.0 * frame.pair.tolerance.largest_tilt;
 }
 
-/// Two regions whose triangles need not be compared, as they rest on each other.
-/// @pre note_along_borders() is true of them
+/// Two opposed regions whose triangles need not be compared, as they rest on each other.
 std::optional<RestingRegions> TouchingPairs::find_rest(const Frame& frame, const Half& m, const Half& f) {
-  if (frame.crossing_pairs != nullptr) return std::nullopt;
   const double rounding = frame.pair.tolerance.rounding;
   const Plane of_moving = m.side.plane(m.region), of_fixed = f.side.plane(f.region);
   const auto is_all_above = [&](const Half& half, const Plane& plane) {
@@ -426,11 +473,47 @@ std::optional<RestingRegions> TouchingPairs::find_rest(const Frame& frame, const
   if (!is_all_above(m, of_fixed) && !is_all_above(f, of_moving)) return std::nullopt;
   std::vector<Vec2> outline;
   for (const std::int32_t v : m.shape->corners) outline.push_back(f.shape->frame.flat(m.side.vertex(v)));
-  RestingRegions resting{m.region, f.region, {}};
+  RestingRegions resting{
+      m.region, f.region, {FeatureKind::FACE, m.region}, {FeatureKind::FACE, f.region}, {}};
   for (const Vec2& corner :
        ConvexPolygon(convex_hull(std::move(outline))).cut_by(ConvexPolygon(f.shape->hull)).corners)
     resting.shared_W.extend(f.shape->frame.lifted(corner));  // The fixed mesh's frame is the world.
   if (resting.shared_W.isEmpty()) return std::nullopt;       // They touch along a border at most.
+  return resting;
+}
+
+/// The same for a wall whose only chain on the plane that it stands on is all that touches.
+/// @pre the wall is at an angle to the plane and nowhere below it by more than rounding
+std::optional<RestingRegions> TouchingPairs::find_chain_at_rest(const Frame& frame, const Half& wall,
+                                                                const Half& base) {
+  const double rounding = frame.pair.tolerance.rounding;
+  const Plane plane = base.side.plane(base.region);
+  std::int32_t touching = -1;
+  for (const std::int32_t chain : wall.chains()) {
+    const auto& ends = wall.side.shape.ends_of_chain(chain);
+    if (std::ranges::any_of(
+            ends, [&](std::int32_t v) { return plane.height(wall.side.vertex(v)) > 2.0 * rounding; }))
+      continue;
+    if (touching >= 0) return std::nullopt;
+    touching = chain;
+  }
+  if (touching < 0) return std::nullopt;
+  // Of a triangle beside the chain, with no corner on it, no contact of the chain tells.
+  for (const std::int32_t t : wall.side.shape.regions.region_triangles[wall.region])
+    for (const std::int32_t v : wall.side.surface.mesh.triangles[static_cast<std::size_t>(t)])
+      if (plane.height(wall.side.vertex(v)) <= CLEAR_ROUNDINGS * rounding &&
+          !is_on_chain(wall.side, v, touching))
+        return std::nullopt;
+  const auto& ends = wall.side.shape.ends_of_chain(touching);
+  const Vec3 begin = wall.side.vertex(ends[0]), end = wall.side.vertex(ends[1]);
+  const auto flat = [&](const Vec3& p) { return base.shape->frame.flat(base.side.point_to_surface(p)); };
+  const SegmentPart part = ConvexPolygon(base.shape->hull).part_of(flat(begin), flat(end), rounding);
+  if (!(part.begin < part.end)) return std::nullopt;
+  const FeatureId chain{FeatureKind::EDGE, touching}, region{FeatureKind::FACE, base.region};
+  RestingRegions resting = wall.side.is_moving ? RestingRegions{wall.region, base.region, chain, region, {}}
+                                               : RestingRegions{base.region, wall.region, region, chain, {}};
+  for (const double share : {part.begin, part.end})
+    resting.shared_W.extend(Vec3(begin + share * (end - begin)));
   return resting;
 }
 

@@ -24,8 +24,8 @@ namespace lmdbench {
 /// 2. Of triangles within `touch` the definition is asked for corners with corners and chains, and
 ///    for parallel chains (PROOF.md, lemma 10): their direction is rounding, and no cone holds it.
 ///    Contacts with a plane's or product's direction the hierarchies find at every distance.
-/// 3. Triangles of regions at rest on each other are not compared (lemma 10): a contact of the
-///    regions stands for them, and corners and chains are found along the borders.
+/// 3. Triangles of regions at rest on each other, or one by a chain on the other, are not compared
+///    (lemma 10): a contact stands for them, and corners and chains are found along the borders.
 class TouchingPairs {
  public:
   /// What a frame fixes, and where results go.
@@ -55,10 +55,13 @@ class TouchingPairs {
   void decide_not_crossing(Frame& frame, Batch& batch);
   Certificate decide_triangles(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
   Certificate decide_regions(Frame& frame, const WidePair& pair);
+  void decide_near_regions(Frame& frame, const Half& moving, const Half& fixed);
   void decide_triangles_of(Frame& frame, const Half& moving, const Half& fixed, bool is_noted);
   static bool are_opposed(const Frame& frame, const Half& moving, const Half& fixed);
-  bool note_along_borders(Frame& frame, const Half& moving, const Half& fixed);
+  void note_along_borders(Frame& frame, const Half& a, const Half& b);
   static std::optional<RestingRegions> find_rest(const Frame& frame, const Half& moving, const Half& fixed);
+  static std::optional<RestingRegions> find_chain_at_rest(const Frame& frame, const Half& wall,
+                                                          const Half& base);
   static TrianglePairDistance intersect(Frame& frame, std::int32_t t_moving, std::int32_t t_fixed);
 
   std::vector<Certificate> certificates_;
