@@ -119,9 +119,21 @@ std::span<const TouchingContacts::Entry> TouchingContacts::entries_of(std::span<
 }
 
 bool TouchingContacts::hold(const RestingRegions& resting) const {
-  const std::span<const Entry> of_moving = entries_of(entries_, &FeaturePair::first, resting.on_moving);
-  return std::ranges::any_of(entries_of(of_moving, &FeaturePair::second, resting.on_fixed),
-                             [&](const Entry& entry) { return entry.box_W.contains(resting.shared_W); });
+  const auto with_regions = [](const ShapeSide& side, const FeatureId& feature) {
+    Features features{feature};
+    std::vector<std::int32_t> regions;
+    if (feature.kind == FeatureKind::EDGE) side.shape.append_carriers(side.surface, feature, regions);
+    for (const std::int32_t region : regions) features.push_back({FeatureKind::FACE, region});
+    return features;
+  };
+  const Features of_fixed = with_regions(pair_.fixed, resting.on_fixed);
+  for (const FeatureId& f : with_regions(pair_.moving, resting.on_moving)) {
+    const std::span<const Entry> of_moving = entries_of(entries_, &FeaturePair::first, f);
+    for (const FeatureId& g : of_fixed)
+      for (const Entry& entry : entries_of(of_moving, &FeaturePair::second, g))
+        if (entry.box_W.contains(resting.shared_W)) return true;
+  }
+  return false;
 }
 
 bool TouchingContacts::for_each_at(const Intersection& crossing,

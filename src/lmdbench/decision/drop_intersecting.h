@@ -47,7 +47,7 @@ class TouchingContacts {
     return !for_each_at(crossing, [](const Contact&) { return false; });
   }
 
-  /// Whether a contact of what touches is at all that both share.
+  /// Whether a contact of what touches, or of a region beside it, is at all that both share.
   bool hold(const RestingRegions& resting) const;
 
   bool empty() const { return entries_.empty(); }

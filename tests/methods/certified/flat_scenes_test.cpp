@@ -223,6 +223,20 @@ TEST(FlatScenes, TrianglesOfWallsAtRestAreNotCompared) {
   }
 }
 
+TEST(FlatScenes, AContactOfTheFaceStandsForTheWallsBesideIt) {
+  // Rings, whose edges' contacts are covered by that of their faces.
+  const TriangleMesh ring =
+      make_sleeve(circle_outline(0.1), circle_outline(0.06), {.height = 0.05, .around = 24});
+  const Scene scene = make_scene(ring, ring, 0.02);
+  LmdSet lmds;
+  WorkCounters counters;
+  make_method("certified", scene)
+      ->search({Vec3(0.0, 0.0, 0.05), Eigen::Quaterniond(Eigen::AngleAxisd(0.05, Vec3::UnitZ()))}, lmds,
+               counters);
+  EXPECT_EQ(lmds.size(), 1u) << text(lmds);
+  EXPECT_LT(counters[Certified::Counter::TRIANGLE_DISTANCES], 150u);
+}
+
 TEST(FlatScenes, FacesAtRestOfPartsThatIntersectBesideAreCompared) {
   // On the floor of the notch, and in its wall by more than rounding or less.
   FlatComparison boxes(make_scene(make_box({0.1, 0.1, 0.1}, 3), make_l_block(0.4), 0.02));
