@@ -52,8 +52,10 @@ ScenePair make_pair(const MetamorphicChoice& choice, const std::string& name, st
   const parts::PartsScene scene =
       parts::make_parts_scene({name, coordinates, choice.seed, index, parts::PoseFamily::ANY});
   ScenePair pair = pair_of(scene.scene, scene.poses[index % scene.poses.size()]);
-  experiments::Random random(choice.seed * 0x9E3779B97F4A7C15ULL + index);
-  if (choice.generator == "laid") pair.X_WM = laid_pose(pair.moving, pair.fixed, random);
+  if (choice.generator == "laid") {
+    experiments::Random random(choice.seed * 0x9E3779B97F4A7C15ULL + index);
+    pair.X_WM = laid_pose(pair.moving, pair.fixed, random);
+  }
   return pair;
 }
 

@@ -250,16 +250,11 @@ class Decision {
   }
   /// Sum of the pseudo-normals of two corners or chains, or that of the one that has an outer side.
   Vec3 facing() const {
-    const auto of_mesh = [&](const ShapeSide& side) -> FeatureId {
-      const auto& [kind, index] = feature_of(side);
-      return {kind, kind == FeatureKind::EDGE ? side.shape.lead_of_chain(index) : index};
-    };
-    const bool both =
-        moving_.surface.has_outer_side(of_mesh(moving_)) == fixed_.surface.has_outer_side(of_mesh(fixed_));
+    const FeatureId f = moving_.shape.lead_of(f_), g = fixed_.shape.lead_of(g_);
+    const bool of_f = moving_.surface.has_outer_side(f), of_g = fixed_.surface.has_outer_side(g);
     Vec3 sum = Vec3::Zero();
-    for (const ShapeSide* side : {&moving_, &fixed_})
-      if (both || side->surface.has_outer_side(of_mesh(*side)))
-        sum += side->sign() * side->direction(side->surface.pseudo_normal(of_mesh(*side)));
+    if (of_f || !of_g) sum += moving_.direction(moving_.surface.pseudo_normal(f));
+    if (of_g || !of_f) sum -= fixed_.direction(fixed_.surface.pseudo_normal(g));
     return sum;
   }
   std::optional<KnownDirection> direction_about(const Vec3& u, double error) const {

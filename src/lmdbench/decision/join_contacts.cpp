@@ -238,10 +238,8 @@ class Joining {
   /// Whether two regions or chains are the same or their closures share a corner.
   static bool are_neighbours(const ShapeSide& side, const FeatureId& a, const FeatureId& b) {
     const auto corners_of = [&](const FeatureId& feature) {
-      const std::int32_t lead = feature.kind == FeatureKind::FACE ? side.shape.lead_of_region(feature.index)
-                                                                  : side.shape.lead_of_chain(feature.index);
       std::vector<std::int32_t> corners;
-      side.shape.append_corners(side.surface, {feature.kind, lead}, corners);
+      side.shape.append_corners(side.surface, side.shape.lead_of(feature), corners);
       std::ranges::sort(corners);
       return corners;
     };

@@ -105,11 +105,8 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
 }
 
 bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {
-  const FeatureId of_mesh = feature.kind == FeatureKind::EDGE
-                                ? FeatureId{FeatureKind::EDGE, side.shape.lead_of_chain(feature.index)}
-                                : feature;
   return !leads_down(side, feature, u_W, slack) &&
-         is_outer(side.surface, of_mesh, side.direction_to_surface(u_W));
+         is_outer(side.surface, side.shape.lead_of(feature), side.direction_to_surface(u_W));
 }
 
 bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {

@@ -245,10 +245,7 @@ void ShapeComplex::append_carriers(const Surface& surface, const FeatureId& feat
     return;
   }
   const std::size_t first = carriers.size();
-  const FeatureId of_mesh = feature.kind == FeatureKind::EDGE
-                                ? FeatureId{FeatureKind::EDGE, lead_of_chain(feature.index)}
-                                : feature;
-  for (const std::int32_t t : surface.incident_triangles(of_mesh))
+  for (const std::int32_t t : surface.incident_triangles(lead_of(feature)))
     carriers.push_back(region_of(t) >= 0 ? region_of(t) : -1 - t);
   const auto begin = carriers.begin() + static_cast<std::ptrdiff_t>(first);
   std::sort(begin, carriers.end());

@@ -45,6 +45,12 @@ class ShapeComplex {
 
   std::int32_t lead_of_region(std::int32_t region) const { return regions.region_triangles[region].front(); }
   std::int32_t lead_of_chain(std::int32_t chain) const { return regions.edges_of_straight[chain].front(); }
+  /// Of a region, chain or corner: the face, edge or vertex of the mesh.
+  FeatureId lead_of(const FeatureId& feature) const {
+    if (feature.kind == FeatureKind::EDGE) return {feature.kind, lead_of_chain(feature.index)};
+    if (feature.kind == FeatureKind::FACE) return {feature.kind, lead_of_region(feature.index)};
+    return feature;
+  }
   std::int32_t region_of(std::int32_t face) const {
     return regions.region_of_triangle[static_cast<std::size_t>(face)];
   }

@@ -46,9 +46,14 @@ Vec3 face_normal(const ShapeSide& side, std::int32_t face) {
   return side.direction(side.surface.face_normals[static_cast<std::size_t>(face)]);
 }
 
-Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
+Segment segment_of(const ShapeSide& side, std::int32_t chain) {
   const auto& ends = side.shape.ends_of_chain(chain);
-  return side.vertex(ends[1]) - side.vertex(ends[0]);
+  return {side.vertex(ends[0]), side.vertex(ends[1])};
+}
+
+Vec3 from_end_to_end(const ShapeSide& side, std::int32_t chain) {
+  const Segment segment = segment_of(side, chain);
+  return segment[1] - segment[0];
 }
 
 bool is_on_chain(const ShapeSide& side, std::int32_t vertex, std::int32_t chain) {
@@ -422,29 +427,22 @@ void TouchingPairs::note_along_borders(Frame& frame, const Half& a, const Half& 
   const double margin = MARGIN_IN_TOUCHES * frame.touch;
   const bool b_has_fewer = b.chains().size() < a.chains().size();
   const Half &few = b_has_fewer ? b : a, &many = b_has_fewer ? a : b;
-  const auto ends_of = [](const Half& half, std::int32_t chain) {
-    return half.side.shape.ends_of_chain(chain);
-  };
-  const auto segment_of = [&](const Half& half, std::int32_t chain) {
-    const auto [begin, end] = ends_of(half, chain);
-    return Segment{half.side.vertex(begin), half.side.vertex(end)};
-  };
   const auto note_ends = [&](const Half& of_corners, std::int32_t of_ends, const Half& of_chain,
                              std::int32_t chain) {
-    const Segment segment = segment_of(of_chain, chain);
-    for (const std::int32_t v : ends_of(of_corners, of_ends)) {
+    const Segment segment = segment_of(of_chain.side, chain);
+    for (const std::int32_t v : of_corners.side.shape.ends_of_chain(of_ends)) {
       const Vec3 p = of_corners.side.vertex(v);
       if (point_segment_distance(p, segment).squared_distance > margin * margin) continue;
       const FeatureId corner{FeatureKind::VERTEX, v};
       ask(of_corners.side, corner, {FeatureKind::EDGE, of_chain.side.shape.lead_of_chain(chain)}, asked_);
       // Pairs of corners are asked for once, from the moving mesh.
       if (of_corners.side.is_moving)
-        for (const std::int32_t w : ends_of(of_chain, chain))
+        for (const std::int32_t w : of_chain.side.shape.ends_of_chain(chain))
           ask(of_corners.side, corner, {FeatureKind::VERTEX, w}, asked_);
     }
   };
   for (const std::int32_t chain : few.chains()) {
-    const Segment segment = segment_of(few, chain);
+    const Segment segment = segment_of(few.side, chain);
     ++frame.pairs;
     many.for_each_chain_near(segment[0], segment[1], margin, [&](std::int32_t other) {
       ++frame.pairs;
@@ -457,7 +455,7 @@ void TouchingPairs::note_along_borders(Frame& frame, const Half& a, const Half& 
 
 /// Whether two regions face each other in parallel planes.
 bool TouchingPairs::are_opposed(const Frame& frame, const Half& m, const Half& f) {
-  const Vec3 of_moving = m.side.plane(m.region).normal, of_fixed = f.side.plane(f.region).normal;
+  const Vec3 of_moving = m.normal(), of_fixed = f.normal();
   return of_moving.dot(of_fixed) < 0.0 &&
          of_moving.cross(of_fixed).norm() <= 2.0 * frame.pair.tolerance.largest_tilt;
 }
@@ -490,10 +488,8 @@ std::optional<RestingRegions> TouchingPairs::find_chain_at_rest(const Frame& fra
   const Plane plane = base.side.plane(base.region);
   std::int32_t touching = -1;
   for (const std::int32_t chain : wall.chains()) {
-    const auto& ends = wall.side.shape.ends_of_chain(chain);
-    if (std::ranges::any_of(
-            ends, [&](std::int32_t v) { return plane.height(wall.side.vertex(v)) > 2.0 * rounding; }))
-      continue;
+    const auto is_above = [&](const Vec3& p) { return plane.height(p) > 2.0 * rounding; };
+    if (std::ranges::any_of(segment_of(wall.side, chain), is_above)) continue;
     if (touching >= 0) return std::nullopt;
     touching = chain;
   }
@@ -504,8 +500,7 @@ std::optional<RestingRegions> TouchingPairs::find_chain_at_rest(const Frame& fra
       if (plane.height(wall.side.vertex(v)) <= CLEAR_ROUNDINGS * rounding &&
           !is_on_chain(wall.side, v, touching))
         return std::nullopt;
-  const auto& ends = wall.side.shape.ends_of_chain(touching);
-  const Vec3 begin = wall.side.vertex(ends[0]), end = wall.side.vertex(ends[1]);
+  const auto [begin, end] = segment_of(wall.side, touching);
   const auto flat = [&](const Vec3& p) { return base.shape->frame.flat(base.side.point_to_surface(p)); };
   const SegmentPart part = ConvexPolygon(base.shape->hull).part_of(flat(begin), flat(end), rounding);
   if (!(part.begin < part.end)) return std::nullopt;
