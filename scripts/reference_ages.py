@@ -4,7 +4,8 @@
 """How old the tables and figures of results/reference are: by how many commits the code that each measures (folders of
 src/lmdbench, column "measures" of the register) has changed since the commit that made it. Prints the register's rows; with
 --mark writes "older" into the last column of those whose code has changed, and takes it from the others. Comments count as
-code, texts (*.md) and build files do not. Exit code 1 when a row that the code has left behind is not marked."""
+code, texts (*.md) and build files do not. Exit code 1 when a row that the code has left behind is not marked; with
+--none-older when there is such a row at all, as none may be in a release."""
 
 import argparse
 import os
@@ -76,6 +77,7 @@ def mark(ages):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--mark", action="store_true", help="write what is found into the register")
+    parser.add_argument("--none-older", action="store_true", help="marked or not, a row that the code has left behind is a failure")
     arguments = parser.parse_args()
     if git("rev-parse", "--is-shallow-repository").stdout.strip() != "false":
         print("not a whole working copy: commits cannot be looked up (remedy: git fetch --unshallow)", file=sys.stderr)
@@ -88,7 +90,9 @@ def main():
     left = [] if arguments.mark else unmarked(ages)
     if left:
         print(f"older than their code and not marked: {', '.join(left)} (remedy: scripts/reference_ages.py --mark, or make them again)", file=sys.stderr)
-    return 1 if left else 0
+    older = sum(since > 0 for _, since in ages)
+    print(f"{older} of {len(ages)} are older than their code")
+    return 1 if left or (arguments.none_older and older) else 0
 
 
 if __name__ == "__main__":

@@ -18,12 +18,12 @@ set -uo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT" || exit 1
 
+mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd`, which all methods need, has a third of the time
 PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
-  shapes metamorphic rest fuzz-readers fuzz-lmd regression reference)
+  shapes metamorphic rest "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
 FUZZ_MINUTES="${LMDBENCH_FUZZ_MINUTES:-360}"
-mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd` is a part of its own
 MACHINE="$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1), $JOBS cores"
 
 # in_fresh_clone COMMAND: for a newcomer, whose folder only has committed files; with the pages of
@@ -81,15 +81,15 @@ part() {
   shapes) study parts --generator shapes --poses "$(of_each 72)" ;;
   metamorphic) study metamorphic --poses "$(of_each 370)" ;; # 37 kinds, ten changes of each pose
   rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 37)" --seed "$SEED" ;;
-  fuzz-readers) scripts/fuzz.sh "$(((FUZZ_MINUTES * 2 / 3 + ${#READERS[@]} - 1) / ${#READERS[@]}))" "${READERS[@]}" ;;
-  fuzz-lmd) scripts/fuzz.sh "$(((FUZZ_MINUTES + 2) / 3))" lmd ;; # what all methods need
+  fuzz-lmd) scripts/fuzz.sh "$(((FUZZ_MINUTES + 2) / 3))" lmd ;;
+  fuzz-*) scripts/fuzz.sh "$(((FUZZ_MINUTES * 2 / 3 + ${#READERS[@]} - 1) / ${#READERS[@]}))" "${1#*-}" ;;
   regression)
     local before
     before="$(git describe --tags --abbrev=0 --match 'v*' HEAD^ 2>/dev/null)" || before=""
     [[ -n $before ]] || { say "there is no release before this one" && return 0; }
     scripts/ci_regression.sh "$before" || (($? == 4)) # unsure, as its last line says
     ;;
-  reference) all_meshes && scripts/reference.sh && python3 scripts/reference_ages.py ;;
+  reference) python3 scripts/reference_ages.py --none-older ;; # made by scripts/reference.sh, in a night
   esac
 }
 
