@@ -16,8 +16,8 @@ inline constexpr double FAR_AWAY = 16.0;
 /// At coordinates C computed points are off by about 1e-16 C, and a direction between two points at
 /// distance d by 1e-16 C / d. At edges below about 1e-8 C that exceeds every tolerance of the
 /// definition: which LMDs there are is chance, and two exact methods disagree. Differences of
-/// neighbouring numbers are exact, so moved vertices lose nothing. The pose is composed with both
-/// shifts once: it moves the mesh as a whole by 1e-16 C and turns nothing.
+/// neighbouring numbers are exact, so far vertices lose nothing when they are moved. The pose is
+/// composed with both shifts once: it moves the mesh as a whole by 1e-16 C and turns nothing.
 class NearFrame {
  public:
   /// @param of_pair `Scene::is_pair`

@@ -608,6 +608,76 @@ TEST(FlatScenes, TiltsFromRoundingToBeyondTheTolerance) {
     EXPECT_GE(scene->found(), static_cast<std::size_t>(tilted_poses()) / 2);
 }
 
+/// Of meshes that are known to a millionth of their size, an edge has one contact with both slopes
+/// of so shallow a valley, which its lowest edge joins, though that bends inwards.
+TEST(FlatScenes, AnEdgeAlongAValleyShallowerThanTheTilt) {
+  std::mt19937_64 random(15);
+  TriangleMesh ridge = ridge_from_above({-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0});
+  ridge.planar_tolerance = 1e-6;
+  std::size_t at_the_edge = 0;
+  for (int i = 0; i < tilted_poses(); ++i) {
+    const double rise = std::pow(10.0, -7.0 + 4.0 * uniform(random));
+    TriangleMesh valley;
+    valley.vertices = {{-1.0, -1.0, rise}, {1.0, -1.0, rise}, {-1.0, 0.0, 0.0},
+                       {1.0, 0.0, 0.0},    {-1.0, 1.0, rise}, {1.0, 1.0, rise}};
+    valley.triangles = {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}};
+    // Partly single triangles.
+    if (i % 3 == 0) valley.triangles = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}};
+    valley.planar_tolerance = 1e-6;
+    FlatComparison both(make_scene(ridge, valley, 0.2));
+    const Vec3 along(1.0, i % 2 == 0 ? 0.0 : 5e-5 * (uniform(random) - 0.5), 0.0);
+    both.check({Vec3(0.2 * uniform(random), 2e-6 * (uniform(random) - 0.5), 0.2 * uniform(random)),
+                Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), along)});
+    if (both.found() == 1) ++at_the_edge;
+  }
+  EXPECT_GE(at_the_edge, static_cast<std::size_t>(tilted_poses()) / 4);
+  EXPECT_LT(at_the_edge, static_cast<std::size_t>(tilted_poses()));
+}
+
+/// Nearly flat sheets of a few triangles, in steps of one height, known to a tolerance.
+TriangleMesh shallow_sheet(std::mt19937_64& random, double height, double tolerance, bool faces_up) {
+  constexpr int CELLS = 2;
+  TriangleMesh sheet;
+  for (int j = 0; j <= CELLS; ++j)
+    for (int i = 0; i <= CELLS; ++i)
+      sheet.vertices.emplace_back(i - 0.5 * CELLS, j - 0.5 * CELLS,
+                                  height * static_cast<double>(random() % 3));
+  for (std::int32_t j = 0; j < CELLS; ++j)
+    for (std::int32_t i = 0; i < CELLS; ++i) {
+      const std::int32_t k = j * (CELLS + 1) + i, above = k + CELLS + 1;
+      sheet.triangles.push_back({k, k + 1, above});
+      sheet.triangles.push_back({k + 1, above + 1, above});
+    }
+  if (!faces_up)
+    for (auto& triangle : sheet.triangles) std::swap(triangle[0], triangle[1]);
+  sheet.planar_tolerance = tolerance;
+  return sheet;
+}
+
+/// Bends from rounding to beyond the tilt, of meshes that are known to any tolerance.
+TEST(FlatScenes, SheetsWithShallowBends) {
+  std::mt19937_64 random(16);
+  std::size_t found = 0;
+  for (int i = 0; i < tilted_poses(); ++i) {
+    const auto any = [&](double least, double largest) {
+      return std::pow(10.0, least + (largest - least) * uniform(random));
+    };
+    const double height = any(-10.0, -3.0), tolerance = i % 4 == 0 ? 0.0 : any(-9.0, -5.5);
+    const TriangleMesh below = shallow_sheet(random, height, tolerance, true);
+    const TriangleMesh above = i % 3 == 0   ? shallow_sheet(random, any(-10.0, -3.0), tolerance, false)
+                               : i % 3 == 1 ? ridge_from_above({-0.6, 0.0, 0.0}, {0.6, 0.0, 0.0})
+                                            : translated(make_box({0.7, 0.7, 0.4}, 1), {0.0, 0.0, 0.2});
+    FlatComparison both(make_scene(above, below, 0.2));
+    const double angle = std::array{0.0, 0.25, 0.5, uniform(random)}[random() % 4] * std::numbers::pi;
+    const Vec3 place(std::array{0.0, 0.5, uniform(random)}[random() % 3],
+                     std::array{0.0, 0.5, uniform(random)}[random() % 3], 2.0 * height + any(-9.0, -0.8));
+    both.check({place, Eigen::AngleAxisd(any(-10.0, -4.0), random_direction(random)) *
+                           Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ()))});
+    found += both.found();
+  }
+  EXPECT_GE(found, static_cast<std::size_t>(tilted_poses()) / 2);
+}
+
 /// Nearly touching, where rounding lets the truth accept a tilt that is clear at larger gaps.
 TEST(FlatScenes, TiltedBoxesThatNearlyTouch) {
   std::mt19937_64 random(9);

@@ -28,7 +28,7 @@ constexpr double RELATIVE_TOUCH = 2e-8;
 constexpr double FILTER_MARGIN = 1e-5;
 /// PairFilter::tiny relative to the coordinates: of such a length rounding is well under the
 /// margin.
-constexpr double RELATIVE_TINY = 1e-8;
+constexpr double RELATIVE_TINY = 2e-8;
 /// A motion of more cutoffs in a frame is a jump: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
 

@@ -179,6 +179,43 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   }
 }
 
+/// A body straight behind a cone passes it on the side and comes into it in front. Next to the axis
+/// squares cancel, so that how far it is from the axis, and how fast it gets away, are not known.
+TEST(WideLifetime, WhatComesRoundFromBehindAConeIsNotForgotten) {
+  constexpr double BEHIND = 2.2, RADIUS = 0.1;
+  const Vec3 velocity(0.015, 0.0, 0.06);  // Of the body, a frame.
+  std::mt19937_64 random(1);
+  LaneSample cone(random), body(random);
+  cone.centre = Vec3::Zero();
+  cone.axis = Vec3::UnitZ();
+  cone.cosine = 0.5;
+  body.axis = Vec3::Zero();
+  body.cosine = 0.0;
+  cone.radius = cone.thickness = body.radius = RADIUS;
+  body.thickness = 1e18;
+  WideForecast forecast;
+  forecast.in_moving = WideTransform(Mat3::Zero(), velocity);
+  forecast.creep = static_cast<float>(1e-5 * velocity.norm());
+  forecast.search_distance = 1.0F;
+  forecast.extent = 4.0F;
+  for (const double beside : {1e-2, 1e-3, 1e-4, 0.0}) {
+    body.centre = {beside, 0.0, -BEHIND};
+    double frames = 0.0;
+    for (Vec3 d = body.centre; d.norm() > 1.0 || d.z() < cone.cosine * d.norm(); ++frames) d += velocity;
+    for (const bool moving_lanes : {false, true}) {
+      WideNode home{}, node{};
+      (moving_lanes ? cone : body).store(home, 0);
+      (moving_lanes ? body : cone).store(node, 3);
+      const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+      WideLifetimeTest test{moving_lanes, {}, 0u};
+      for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(velocity[k]);
+      const WideLifetimes result = test_lanes_lifetime(node, probe, {1.0F, 0.0F, 1e-5F}, forecast, test);
+      EXPECT_EQ(result.lmd, 0u);
+      EXPECT_LT(static_cast<double>(result.frames), frames) << beside << " beside the axis";
+    }
+  }
+}
+
 /// Two children, a point of each of which touches the other at the end of a motion.
 TEST(WideLifetime, NothingTouchesBeforeItsFramesAreOver) {
   std::mt19937_64 random(6);

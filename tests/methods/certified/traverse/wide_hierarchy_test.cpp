@@ -95,7 +95,7 @@ TEST(PolarCap, OfTentsOfAnyBend) {
     const Surface surface = build_surface(tent);
     const auto cap = polar_cap(surface, {FeatureKind::EDGE, 0});
     const double flatness = (3.0 + size) / size;
-    const double doubt = 50.0 * POLAR_SLACK * flatness;
+    const double doubt = 50.0 * POLAR_SLACK * flatness + 4.0 * LARGEST_PARALLEL_TILT;
     if (bend > 0.0) {
       ASSERT_TRUE(cap) << "bend " << bend << ", size " << size;
       ++convex;
@@ -115,6 +115,26 @@ TEST(PolarCap, OfTentsOfAnyBend) {
   }
   EXPECT_GT(convex, 5000u);
   EXPECT_GT(reflex, 5000u);
+}
+
+/// Parallel chains are granted the tilt: they may meet a reflex edge of twice that.
+TEST(PolarCap, OfAnEdgeThatBendsInwardsByLessThanTheTilt) {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 1000; ++i) {
+    const double tilt = LARGEST_PARALLEL_TILT * uniform(random), size = 0.2 + uniform(random);
+    TriangleMesh valley;
+    valley.vertices = {
+        Vec3::Zero(), Vec3::UnitX(), {0.4, size, size * std::tan(tilt)}, {0.6, -size, size * std::tan(tilt)}};
+    valley.triangles = {{0, 1, 2}, {1, 0, 3}};
+    const auto cap = polar_cap(build_surface(valley), {FeatureKind::EDGE, 0});
+    ASSERT_TRUE(cap) << "tilt " << tilt;
+    // Square to the mean of two chains, so off the plane square to this one by half the tilt.
+    for (const double lean : {-0.5, 0.0, 0.5}) {
+      const Vec3 up = Vec3(lean * LARGEST_PARALLEL_TILT, 0.0, 1.0).normalized();
+      EXPECT_GE(cap->axis.dot(up), cap->cosine) << "tilt " << tilt;
+    }
+    EXPECT_LE(std::acos(cap->cosine), 5.0 * LARGEST_PARALLEL_TILT);
+  }
 }
 
 /// Its two triangles are clearly no needles along the edge, of 1e-12, but one of them has no area.

@@ -20,6 +20,9 @@ constexpr double LARGEST_SLACK = 0.1;
 /// Lower triangles, relative to their length, constrain nothing: their height is rounding.
 constexpr double LEAST_HEIGHT = 1e-12;
 
+/// An end of a chain's arc is off by its slack, and off the plane square to the chain by less than
+/// half of PARALLEL_SLACK and POLAR_SLACK more: together by less than so many slacks.
+constexpr double SPREAD_OF_SLACK = 1.25;
 /// Edges that bend by more (a sine) are decided without constraints.
 constexpr double CLEAR_BEND = 1e-3;
 /// Least component of a reflex chain's outer side along both normals, of 5e-4 for their mean: more
@@ -31,7 +34,7 @@ constexpr double FLAT = 10.0;
 /// Slack of a triangle's constraint. The definition compares n . (x - p) with |x - p|, which is up
 /// to the triangle's size, while the constraint's n . (x - p) is of its height.
 double slack_of(double size_per_height) {
-  return POLAR_SLACK * (1.0 + 2.0 * size_per_height);
+  return PARALLEL_SLACK + POLAR_SLACK * 2.0 * size_per_height;
 }
 
 std::int32_t opposite_corner(const Surface& surface, std::int32_t triangle,
@@ -48,7 +51,7 @@ std::int32_t opposite_corner(const Surface& surface, std::int32_t triangle,
 /// theta the angle from a0 over the outer side to a1, so that a1 . n0 = sin(theta). A convex edge's
 /// cone is the arc from n0 to n1. A reflex edge's would be the arc of the inner normals, which is
 /// asin(sin(theta / 2)) and more away from the outer side; sin(theta / 2) >= |sin(theta)| / 2 is
-/// more than CLEAR_BEND / 2 = 5e-4, and no slack is more than 4.2e-5: it is empty.
+/// more than CLEAR_BEND / 2 = 5e-4, and no slack is more than 9.2e-5: it is empty.
 struct ClearEdge {
   bool is_clear = false;
   bool is_convex = false;
@@ -89,7 +92,7 @@ std::optional<PolarCap> cap_of_arc(const Vec3& along, Scratch& work) {
   });
   if (work.constraints.empty()) return PolarCap{};
   for (const Constraint& constraint : work.constraints)
-    work.extremes.slack = std::max(work.extremes.slack, 2.0 * constraint.slack);
+    work.extremes.slack = std::max(work.extremes.slack, SPREAD_OF_SLACK * constraint.slack);
   for (std::size_t k = 0; k < work.constraints.size(); ++k) {
     const Vec3 end = along.cross(work.constraints[k].direction).normalized();
     for (const Vec3& candidate : {end, Vec3(-end)})
@@ -107,7 +110,7 @@ std::optional<PolarCap> cap_of_edge(const Surface& surface, std::int32_t edge, V
     if (!clear.is_convex) return std::nullopt;
     for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge])
       work.extremes.directions.push_back(surface.face_normals[static_cast<std::size_t>(triangle)]);
-    work.extremes.slack = 2.0 * slack_of(clear.size_per_height);
+    work.extremes.slack = SPREAD_OF_SLACK * slack_of(clear.size_per_height);
     return cap_around(work.extremes);
   }
   const auto& ends = surface.adjacency.edges[static_cast<std::size_t>(edge)];
@@ -128,7 +131,7 @@ std::optional<PolarCap> cap_of_edge(const Surface& surface, std::int32_t edge, V
     }
   }
   if (surface.has_outer_side({FeatureKind::EDGE, edge}))
-    work.constraints.push_back({-surface.pseudo_normal({FeatureKind::EDGE, edge}), POLAR_SLACK});
+    work.constraints.push_back({-surface.pseudo_normal({FeatureKind::EDGE, edge}), PARALLEL_SLACK});
   return cap_of_arc(along, work);
 }
 
@@ -138,7 +141,7 @@ std::optional<PolarCap> cap_of_chain(const Surface& surface, const ShapeComplex&
   // Of a triangle without area the wing is rounding.
   shape.for_each_chain_wing(surface, chain, [&](const Vec3& wing) {
     const double depth = wing.norm();
-    if (depth > least_wing) work.constraints.push_back({wing / depth, POLAR_SLACK});
+    if (depth > least_wing) work.constraints.push_back({wing / depth, PARALLEL_SLACK});
     return true;
   });
   const FeatureId lead{FeatureKind::EDGE, shape.lead_of_chain(chain)};
@@ -157,11 +160,11 @@ std::optional<PolarCap> cap_of_chain(const Surface& surface, const ShapeComplex&
         return std::nullopt;
       if (rise < -CLEAR_BEND) {
         work.extremes.directions = {normal(0), normal(1)};
-        work.extremes.slack = 2.0 * POLAR_SLACK;
+        work.extremes.slack = SPREAD_OF_SLACK * PARALLEL_SLACK;
         return cap_around(work.extremes);
       }
     }
-    work.constraints.push_back({-outer, POLAR_SLACK});
+    work.constraints.push_back({-outer, PARALLEL_SLACK});
   }
   return cap_of_arc(along.normalized(), work);
 }

@@ -187,7 +187,7 @@ std::optional<PolarCap> vertex_cap(const Surface& surface, std::int32_t vertex, 
 std::optional<PolarCap> polar_cap(const Surface& surface, const FeatureId& feature, const ShapeComplex* shape,
                                   WingSet* bounding) {
   const auto of_normal = [](const Vec3& normal) {
-    return PolarCap{normal, 1.0 - 0.5 * POLAR_SLACK * POLAR_SLACK, POLAR_SLACK};
+    return PolarCap{normal, 1.0 - 0.5 * PARALLEL_SLACK * PARALLEL_SLACK, PARALLEL_SLACK};
   };
   switch (feature.kind) {
     case FeatureKind::VERTEX:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/decision/contact_tolerance.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/shape/shape_complex.h>
 
@@ -25,6 +26,9 @@ struct PolarCap {
 /// distance, which is at least RELATIVE_TOUCH of the coordinates (128 * 2.2e-16 / 2e-8 = 1.5e-6),
 /// and rounding over the shortest wing that counts.
 inline constexpr double POLAR_SLACK = 2e-6;
+/// That of regions and chains, which count as parallel at a small tilt (PROOF.md, lemma 2): wings
+/// of parallel chains are granted it.
+inline constexpr double PARALLEL_SLACK = POLAR_SLACK + LARGEST_PARALLEL_TILT;
 
 /// Shorter wings, relative to the mesh's largest coordinate, are left out: against them the
 /// definition grants more than POLAR_SLACK (PROOF.md, lemma 3). Fewer constraints give a larger
@@ -35,7 +39,8 @@ inline constexpr double LEAST_WING = 1e-6;
 using WingSet = std::uint32_t;
 
 /// Cap of a feature (PROOF.md, lemmas 4 to 6); nothing where the polar cone is empty even with the
-/// slack: a reflex edge, a saddle or a pit carries no LMD. Nor does a face without area.
+/// slack: a reflex edge, a saddle or a pit carries no LMD. Nor does a face without area. An edge
+/// that is reflex by less than the slack does, along an edge parallel to it.
 ///
 /// The cone { n : n . e <= s |e| for all e } is a spherical polygon; e are the edge directions, and
 /// the negated pseudo-normal where there is an outer side. Crossings of two planes that satisfy the

@@ -12,9 +12,9 @@ namespace lmdbench {
 
 namespace {
 
-/// A cap wider than a cone by POLAR_SLACK, far more than the turn of indices (GENERIC_TURN).
-PolarCap signed_cap_of(const Cone& cone) {
-  const double cosine = cone.cosine - POLAR_SLACK * cone.sine - POLAR_SLACK * POLAR_SLACK;
+/// A cap wider than a cone by a slack, far more than the turn of indices (GENERIC_TURN).
+PolarCap signed_cap_of(const Cone& cone, double slack) {
+  const double cosine = cone.cosine - slack * cone.sine - slack * slack;
   if (!(cosine > 0.0)) return {};
   return {cone.axis, cosine, std::sqrt(1.0 - cosine * cosine)};
 }
@@ -42,7 +42,8 @@ std::optional<PolarCap> signed_cap(const SignedFeatures& signs, const ShapeCompl
       normals.push_back(normal_of(signs.regions[corner.first + k]));
   }
   const Cone cone = convex_cone_of_directions(normals);
-  return cone.cosine > 0.0 ? signed_cap_of(cone) : PolarCap{};
+  if (!(cone.cosine > 0.0)) return PolarCap{};
+  return signed_cap_of(cone, lead.kind == FeatureKind::VERTEX ? POLAR_SLACK : PARALLEL_SLACK);
 }
 
 PolarCap merged_caps(const PolarCap& a, const PolarCap& b) {

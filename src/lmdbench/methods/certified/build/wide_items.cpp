@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/parallel.h>
-#include <lmdbench/decision/contact_tolerance.h>
 #include <lmdbench/methods/certified/build/signed_hierarchy.h>
 #include <lmdbench/methods/certified/build/wide_items.h>
 #include <lmdbench/shape/shape_complex.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace lmdbench {
@@ -16,15 +14,6 @@ namespace {
 
 /// Features of a task. Blocks are joined in order, so that threads do not matter.
 constexpr std::size_t BLOCK = 2048;
-
-/// The cap with a larger half angle; all directions where that is a right angle.
-/// @param angle small [rad]
-PolarCap widened(const PolarCap& cap, double angle) {
-  PolarCap result{cap.axis, cap.cosine - angle * cap.sine - angle * angle, 1.0};
-  if (cap.is_all_directions() || !(result.cosine > 0.0)) return {};
-  result.sine = std::sqrt(1.0 - result.cosine * result.cosine);
-  return result;
-}
 
 }  // namespace
 
@@ -39,10 +28,7 @@ std::optional<WideItem> make_wide_item(const Surface& surface, const ShapeComple
   WideItem item;
   item.ref = WideRef::feature(feature);
   item.carries_lmd = cap.has_value();
-  if (!cap) return item;
-  item.cap = *cap;
-  // Regions and chains count as parallel at a small tilt (decision/contact_tolerance.h).
-  if (feature.kind != FeatureKind::VERTEX) item.cap = widened(item.cap, LARGEST_PARALLEL_TILT);
+  if (cap) item.cap = *cap;
   return item;
 }
 

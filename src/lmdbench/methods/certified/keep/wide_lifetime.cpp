@@ -76,8 +76,13 @@ struct Lasting {
   HWY_INLINE void beside(const typename NodeCriteria<Lanes>::Beside& x, Of of) {
     const Number zero = Lanes::set(0.0F), half_diagonal = Lanes::set(HALF_DIAGONAL);
     const Number lateral = root(largest_of(x.squared_lateral, zero));
+    // Near the axis squares cancel, and `lateral` may be far too short: there growth counts less.
+    const Number growing = motion.growth - x.z * rise(of);
+    const auto grows = growing > zero;
+    const Number length =
+        select(grows, x.squared_lateral + x.squared_distance * Lanes::set(SQUARED_NEAR_AXIS), lateral);
     const Number lateral_growth =
-        (motion.growth - x.z * rise(of)) / largest_of(lateral, Lanes::set(LEAST_LENGTH));
+        select(grows, growing * lateral, growing) / largest_of(length, Lanes::set(LEAST_LENGTH));
     const Number side_growth = select(x.reached < x.limit, x.sine * rise(of), zero);
     ask((lateral * x.cosine - x.side) * half_diagonal,
         (side_growth - lateral_growth * x.cosine) * half_diagonal);

@@ -122,7 +122,7 @@ struct WideHierarchy {
 
   /// Over the features of the mesh's shape: what `certified` prepares for a mesh.
   static WideHierarchy of(const Body& body);
-  /// Follows a deformation (build/wide_refit.h). It is built anew in the first step, where the
+  /// Follows a deformation (deform/wide_refit.h). It is built anew in the first step, where the
   /// shape was made anew, and where counters say that it pays.
   void follow(const Body& body, const SurfaceChange& change);
   std::uint32_t times_built_anew() const { return times_built_anew_; }

@@ -167,6 +167,7 @@ struct NodeCriteria {
 
   /// The cone of one child, from the side.
   struct Beside {
+    Number squared_distance;   ///< |D|^2
     Number squared_lateral;    ///< |D across u|^2, rounded down; may be negative.
     Number z, reached, limit;  ///< z, z + slab, reach cos(phi)
     Number cosine, sine;       ///< Of phi.
@@ -220,7 +221,8 @@ struct NodeCriteria {
  private:
   HWY_INLINE Beside beside(Number z, Number slab, Number cosine, Number sine) const {
     const Number reached = z + slab, limit = reach * cosine;
-    return {bounds.squared_distance * Lanes::set(1.0F - DIRECTION_ROUNDING) - z * z,
+    return {bounds.squared_distance,
+            bounds.squared_distance * Lanes::set(1.0F - DIRECTION_ROUNDING) - z * z,
             z,
             reached,
             limit,
