@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Baselines of a few scenes: hashes of all results, sums of all work counters, and how the methods' times relate.
 
-    python3 scripts/baseline.py check [--program build/release/lmdbench]
+    python3 scripts/baseline.py check [--without-times] [--program build/release/lmdbench]
     python3 scripts/baseline.py renew [--program build/release/lmdbench]
 
 `check` runs the scenes and names what differs from results/baseline/; `renew` writes these files anew, to be committed with
@@ -93,14 +93,14 @@ def leaves(value, place=""):
         yield place, value
 
 
-def differences(baseline, measured):
+def differences(baseline, measured, with_times=True):
     """One line each: what is not as in the baseline."""
     before, now = dict(leaves(baseline)), dict(leaves(measured))
     lines = []
     for place in sorted(before.keys() | now.keys()):
         old, new = before.get(place), now.get(place)
         if place.startswith("/time_ratios/"):
-            if old is not None and new is not None and not 1 / RATIO_FACTOR <= new / old <= RATIO_FACTOR:
+            if with_times and old is not None and new is not None and not 1 / RATIO_FACTOR <= new / old <= RATIO_FACTOR:
                 lines.append(f"{place}: {old} became {new}, more than a factor of {RATIO_FACTOR:g}")
         elif old != new:
             lines.append(f"{place}: {old} became {new}")
@@ -111,7 +111,7 @@ def baseline_file(folder, scene):
     return os.path.join(folder, scene + ".json")
 
 
-def check(program, folder):
+def check(program, folder, with_times=True):
     wrong = 0
     for scene in SCENES:
         file = baseline_file(folder, scene)
@@ -119,7 +119,7 @@ def check(program, folder):
             lines = ["no such baseline"]
         else:
             with open(file, encoding="utf-8") as stream:
-                lines = differences(json.load(stream), measure(program, scene))
+                lines = differences(json.load(stream), measure(program, scene), with_times)
         for line in lines:
             print(f"{os.path.relpath(file, ROOT)}: {line}")
         wrong += len(lines)
@@ -145,11 +145,13 @@ def main(arguments=None):
     parser.add_argument("command", choices=["check", "renew"])
     parser.add_argument("--program", default=os.path.join(ROOT, "build", "release", "lmdbench"))
     parser.add_argument("--folder", default=FOLDER)
+    parser.add_argument("--without-times", action="store_true", help="check: hashes and counters alone, where other programs run beside this one")
     options = parser.parse_args(arguments)
     if not os.access(options.program, os.X_OK):
         print(f"error: {options.program} is no program (remedy: cmake --build --preset release)", file=sys.stderr)
         return 4
-    return {"check": check, "renew": renew}[options.command](os.path.abspath(options.program), options.folder)
+    program = os.path.abspath(options.program)
+    return renew(program, options.folder) if options.command == "renew" else check(program, options.folder, not options.without_times)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@
 
 /// The installed library (`find_package(lmdbench)`, target `lmdbench::lmdbench`): the set of local
 /// minimum distance pairs of two meshes in a pose, by a method given by name. This header and its
-/// includes are the whole interface; it keeps its meaning within a minor version. Lengths: metres.
+/// includes are the whole interface; it keeps its meaning within a major version. Lengths: metres.
 ///
 ///     const lmdbench::PreparedMesh peg("peg.off");
 ///     const lmdbench::PreparedMesh hole("hole.stl");

@@ -211,6 +211,22 @@ TEST(JoinContacts, WhatTouchesInNoKnownDirectionHasThoseOfWhatItMeets) {
   EXPECT_NEAR((one[0].direction - of_moving).norm(), 0.0, 1e-9) << text(one);
 }
 
+TEST(JoinContacts, ContactsThatMeetInTwoKnownDirectionsAreTwoLmds) {
+  ShapeScene scene(box(), square_table());
+  const ShapePair pair = scene.at(moved(0.3, -0.2, 0.1));
+  ContactSet set = scene.contacts(pair);
+  // So few that no cover is made.
+  std::erase_if(set.contacts, [](const Contact& c) { return c.dimension == 1; });
+  ContactSet as_it_is = set;
+  ASSERT_EQ(testing::joined(pair, as_it_is).size(), 1u);
+  const auto corner = std::ranges::find(set.contacts, VERTEX, [](const Contact& c) { return c.moving.kind; });
+  ASSERT_NE(corner, set.contacts.end());
+  corner->direction = Vec3(0.1, 0.0, -1.0).normalized();
+  const LmdSet two = testing::joined(pair, set);
+  ASSERT_EQ(two.size(), 2u) << text(two);
+  EXPECT_NE(two[0].feature_moving.kind, two[1].feature_moving.kind);
+}
+
 TEST(JoinContacts, TheFacesOfAStepAreTwoLmdsAndALevelRecessIsNone) {
   // Undersides at the heights .2 and .1, as a prism along y.
   const auto step = [] {

@@ -79,8 +79,6 @@ struct Contact {
   /// A larger error of the direction leaves it open between faces at an angle, and a distance up to
   /// this share of rounding says nothing. Farther apart, the faces' distances would be wrong by it.
   static constexpr double LARGEST_KNOWN_ERROR = 0.01, TOUCHING_SHARE = 0.125;
-  /// Error of a direction of which nothing is known: no two unit vectors are farther apart.
-  static constexpr double NO_DIRECTION = 2.0;
 
   FeatureId moving, fixed;  ///< `index` counts regions, chains or vertices.
   int dimension = 0;        ///< 0: a pair of points, 1: of segments, 2: of polygons.
@@ -107,7 +105,6 @@ struct Contact {
   /// Not where edges along each other or corners touch, nor beside edges that are not quite
   /// parallel.
   bool knows_direction(double rounding) const {
-    if (direction_error >= NO_DIRECTION) return false;
     return direction_error <= LARGEST_KNOWN_ERROR ||
            distance > std::max(TOUCHING_SHARE * rounding, change / LARGEST_KNOWN_ERROR);
   }

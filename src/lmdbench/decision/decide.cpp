@@ -162,7 +162,7 @@ class Decision {
   void share_perpendicular(const Crossing& x) {
     if (!end_leads_down(moving_, x.a, x.s, spare_, u_, distance_) &&
         !end_leads_down(fixed_, x.b, x.t, spare_, -u_, distance_))
-      add_points(p_, q_, u_, (q_ - p_).dot(u_), error_of_crossing(), unknown_);
+      add_points(p_, q_, u_, (q_ - p_).dot(u_), unknown_, unknown_);
   }
 
   void face_region(const ShapeSide& of_chain, const Line& line, const ShapeSide& of_region,
@@ -271,13 +271,6 @@ class Decision {
     const double rounded = tolerance_.direction_error(distance);
     const bool is_told_by_cones = known.error < rounded && known.error <= 4.0 * tolerance_.largest_tilt;
     return known.is_strict || is_told_by_cones ? 0.0 : std::min(known.error, rounded);
-  }
-  /// Chains that cross may be parallel to the tolerance, too. Where their segment knows another
-  /// direction, the crossing's is none: the pair has one LMD.
-  double error_of_crossing() const {
-    const bool is_at_an_angle =
-        segment_ && (segment_->u - u_).norm() > unknown_ + segment_->error + 2.0 * tolerance_.largest_tilt;
-    return is_at_an_angle ? Contact::NO_DIRECTION : unknown_;
   }
   PolarSlack along_normal() const { return {HEIGHT_ROUNDINGS * tolerance_.rounding, 0.0}; }
 
@@ -389,7 +382,6 @@ class Decision {
     contact.fall = fall_of(*both, distance);
     set_middle(contact, both->u);
     found_.contacts.push_back(contact);
-    segment_ = both;
   }
 
   void set_middle(Contact& contact, const Vec3& u) {
@@ -430,9 +422,8 @@ class Decision {
   ContactSet& found_;
   // Set by conditions that were met.
   double distance_ = 0.0;
-  double spare_ = 0.0, unknown_ = 0.0;     ///< Of chains that cross.
-  Vec3 p_, q_, u_;                         ///< Likewise.
-  std::optional<KnownDirection> segment_;  ///< Of chains that are parallel.
+  double spare_ = 0.0, unknown_ = 0.0;  ///< Of chains that cross.
+  Vec3 p_, q_, u_;                      ///< Likewise.
 };
 
 /// Of the fixed mesh.
