@@ -10,6 +10,7 @@
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
+#   scripts/release_check.sh --page     the page of those that are done, no part
 #   LMDBENCH_POSES=N                    poses of each study and judge (1000000)
 #   LMDBENCH_SEED=N                     their seed (the day, such as 20261124)
 #   LMDBENCH_FUZZ_MINUTES=N             minutes of fuzzing in all (360), a third of them for `lmd`
@@ -99,6 +100,7 @@ if [[ ${1:-} == --list ]]; then
 fi
 chosen=("$@")
 (($# > 0)) || chosen=("${PARTS[@]}")
+[[ ${1:-} != --page ]] || chosen=()
 for name in "${chosen[@]}"; do
   [[ " ${PARTS[*]} " == *" $name "* ]] || die 2 "there is no part '$name' (remedy: scripts/release_check.sh --list)"
 done

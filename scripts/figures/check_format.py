@@ -31,8 +31,8 @@ def described(text):
 
 def documented_path(path):
     """'/methods/LABEL/force' is described as 'force', the counters of all methods as 'counters/NAME'; of a closed loop
-    '/methods/LABEL/path' is described as '/path'; loops and series of '/realtime/LABEL' share their rows, as do the meshes of '/scene' that deform."""
-    path = re.sub(r"^/scene/(?:moving|fixed_\d+|mover_\d+)/deformation/", "/scene/MESH/deformation/", path)
+    '/methods/LABEL/path' is described as '/path'; loops and series of '/realtime/LABEL' share their rows, as do the meshes of '/scene'."""
+    path = re.sub(r"^/scene/(?:moving|fixed_\d+|mover_\d+)/", "/scene/MESH/", path)
     path = re.sub(r"^/realtime/[^/]+/", "/realtime/LABEL/", path)
     path = re.sub(r"^(/realtime/LABEL/)(?!grants/)[^/]+/(?=(?:asked|woken|done|age)$)", r"\1LOOP/", path)
     path = re.sub(r"^(/realtime/LABEL/lateness)/[^/]+/", r"\1/SERIES/", path)

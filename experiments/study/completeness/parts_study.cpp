@@ -123,7 +123,8 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
       if (!uncut) continue;
       const LmdSet truth_of_uncut = lmds_at(*of_uncut, pose);
       if (same_contacts(truth, truth_of_uncut, scene.diagonal)) continue;
-      const bool at_border = is_at_a_border(uncut->scene, pose, scene.diagonal);
+      const bool at_border = is_at_a_border(uncut->scene, pose, scene.diagonal) ||
+                             is_at_a_border(scene.scene, pose, scene.diagonal);
       ++result.poses_that_show_cut;
       result.of_these_at_a_border += at_border;
       complain(fmt::format("{}  // the cut shows{}; exact:\n{}recut:\n{}", test_line(choice, pose),

@@ -29,7 +29,7 @@ struct PartsResult {
   std::size_t wrong_poses = 0;           ///< Poses at which some variant is wrong.
   std::vector<Judgement> judgements;     ///< In the order of `variants()`.
   std::size_t poses_that_show_cut = 0;   ///< Only RECUT: `exhaustive` differs from EXACT.
-  std::size_t of_these_at_a_border = 0;  ///< See `is_at_a_border`.
+  std::size_t of_these_at_a_border = 0;  ///< `is_at_a_border` of either cut.
 };
 
 /// Whether two sets have the same contacts: the same kinds of features, distances and places in any
