@@ -128,11 +128,14 @@ TEST(PolarCap, OfAnEdgeThatBendsInwardsByLessThanTheTilt) {
     valley.triangles = {{0, 1, 2}, {1, 0, 3}};
     const auto cap = polar_cap(build_surface(valley), {FeatureKind::EDGE, 0});
     ASSERT_TRUE(cap) << "tilt " << tilt;
-    // Square to the mean of two chains, so off the plane square to this one by half the tilt.
-    for (const double lean : {-0.5, 0.0, 0.5}) {
-      const Vec3 up = Vec3(lean * LARGEST_PARALLEL_TILT, 0.0, 1.0).normalized();
-      EXPECT_GE(cap->axis.dot(up), cap->cosine) << "tilt " << tilt;
-    }
+    // Square to the mean of two chains, so off the plane square to this one by half the tilt; and
+    // leaning to a side until the wing there leads up by the tilt.
+    for (const double lean : {-0.5, 0.0, 0.5})
+      for (const double side : {-1.0, 0.0, 1.0}) {
+        const Vec3 up =
+            Vec3(lean * LARGEST_PARALLEL_TILT, side * (LARGEST_PARALLEL_TILT - tilt), 1.0).normalized();
+        EXPECT_GE(cap->axis.dot(up), cap->cosine) << "tilt " << tilt;
+      }
     EXPECT_LE(std::acos(cap->cosine), 5.0 * LARGEST_PARALLEL_TILT);
   }
 }
