@@ -115,6 +115,31 @@ TEST(CriticalPairs, OfConvexBodiesOnEachOtherAreTheOneLmd) {
   EXPECT_GT(asked, 300);
 }
 
+/// A regular octahedron, its corners at `radius` on the axes.
+TriangleMesh octahedron(double radius) {
+  TriangleMesh mesh;
+  mesh.vertices = {radius * Vec3::UnitX(),  -radius * Vec3::UnitX(), radius * Vec3::UnitY(),
+                   -radius * Vec3::UnitY(), radius * Vec3::UnitZ(),  -radius * Vec3::UnitZ()};
+  mesh.triangles = {{0, 2, 4}, {0, 5, 2}, {0, 4, 3}, {0, 3, 5}, {1, 4, 2}, {1, 2, 5}, {1, 3, 4}, {1, 5, 3}};
+  return mesh;
+}
+
+/// Their direction is rounding: no bound may speak for it, and the minimum has its index.
+TEST(CriticalPairs, OfCornersNextToTouchAreOneLmd) {
+  const Scene scene = testing::make_scene(octahedron(0.5), octahedron(0.5), 0.05);
+  for (const std::string& name : methods_with_critical_pairs()) {
+    const auto method = make_method(name, scene);
+    for (const double gap : {3e-9, 8e-9, 1.5e-8, 3e-8, 1e-6})
+      for (const double aside : {0.0, 0.1, -0.3}) {
+        Pose pose = testing::moved(aside * gap, 0.0, 1.0 + gap);
+        pose.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vec3::UnitZ()));
+        const CriticalSet critical = critical_at(*method, pose);
+        ASSERT_EQ(critical.size(), 1u) << name << ", gap " << gap << "\n" << text(critical);
+        EXPECT_TRUE(critical[0].is_minimum && critical[0].index == 1) << name << "\n" << text(critical);
+      }
+  }
+}
+
 TEST(CriticalPairs, BordersHaveNoIndex) {
   const Scene scene = testing::make_scene(make_sphere(0.2, 1), make_patch(1.0, 4, 0.1), 1.0);
   for (const std::string& name : methods_with_critical_pairs()) {

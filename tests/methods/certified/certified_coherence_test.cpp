@@ -198,6 +198,38 @@ TEST(CertifiedCoherence, NoFrameOfASmoothMotionIsMadeAnew) {
   EXPECT_LT(2 * most_kept, least_fresh);
 }
 
+/// Bounds of what is kept must hold beyond the size that both meshes had when they were made.
+TEST(CertifiedCoherence, FindsTheTruthOfWhatMovesFarAwayWithinTheCutoff) {
+  constexpr int SIDES = 15;
+  TriangleMesh prism;
+  for (int end = 0; end < 2; ++end)
+    for (int i = 0; i < SIDES; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / SIDES;
+      prism.vertices.emplace_back(0.3 * std::sin(angle), 2.0 * end - 1.0, 0.3 * std::cos(angle));
+    }
+  for (std::int32_t i = 0; i < SIDES; ++i) {
+    const std::int32_t next = (i + 1) % SIDES;
+    prism.triangles.push_back({i, next, i + SIDES});
+    prism.triangles.push_back({next, next + SIDES, i + SIDES});
+    if (next > 1) prism.triangles.push_back({0, next, i});
+    if (next > 1) prism.triangles.push_back({SIDES, i + SIDES, next + SIDES});
+  }
+  const TriangleMesh small = make_sphere(0.2, 0);
+  std::size_t found = 0, lmds = 0;
+  for (const double aside : {0.6, 1.0})
+    for (const bool prism_moves : {false, true}) {
+      const Scene scene = prism_moves ? make_scene(prism, small, 10.0) : make_scene(small, prism, 10.0);
+      std::vector<Pose> away;
+      for (int k = 0; k < 24; ++k) {
+        const Pose pose{Vec3(aside, 0.0, 0.4 * k), Eigen::Quaterniond::Identity()};
+        away.push_back(prism_moves ? pose.inverse() : pose);
+      }
+      expect_truth_along(scene, 10.0, away, lmds, 1e3);
+      found += lmds;
+    }
+  EXPECT_GE(found, 90u);
+}
+
 TEST(CertifiedCoherence, FindsTheTruthAtRandomPoses) {
   // There is no coherence: every frame falls back to a search from scratch.
   const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 20, 10), 0.0);

@@ -678,6 +678,54 @@ TEST(FlatScenes, SheetsWithShallowBends) {
   EXPECT_GE(found, static_cast<std::size_t>(tilted_poses()) / 2);
 }
 
+/// Of triangles of some hundred roundings that cross, corners still have a contact.
+TEST(FlatScenes, CornersOfCrossingTrianglesAsSmallAsRounding) {
+  constexpr double UNIT = 1.2789769243681803e-12, RISE = 5.1159076974727215e-14;
+  TriangleMesh a, b;
+  a.vertices = {{0.0, 0.0, 0.0},   {2.0 * UNIT, -UNIT, RISE}, {2.0 * UNIT, UNIT, RISE},
+                {-1.0, -1.0, 0.9}, {1.0, -1.0, 0.9},          {0.0, 1.0, 0.9}};
+  b.vertices = {{0.0, 0.0, 0.0},
+                {2.0 * UNIT, -0.9 * UNIT, -RISE},
+                {2.0 * UNIT, 1.1 * UNIT, -RISE},
+                {-1.0, -1.0, -0.9},
+                {1.0, -1.0, -0.9},
+                {0.0, 1.0, -0.9}};
+  a.triangles = {{0, 1, 2}, {3, 4, 5}};
+  b.triangles = {{0, 1, 2}, {3, 5, 4}};
+  FlatComparison both(make_scene(a, b, 1e-3));
+  both.check({Vec3(0.0, 0.0, -RISE), Eigen::Quaterniond::Identity()});
+  EXPECT_GE(both.found(), 1u);
+}
+
+/// Nearly one triangle many times, with one tip, and a triangle far away that gives the size.
+TriangleMesh small_fan(double rise, std::mt19937_64& random) {
+  constexpr double SIZE = 1e-7;
+  const double far_away = std::copysign(0.9, rise);
+  TriangleMesh fan;
+  fan.vertices = {{0.0, 0.0, 0.0}, {-1.0, -1.0, far_away}, {1.0, -1.0, far_away}, {0.0, 1.0, far_away}};
+  fan.triangles = {rise > 0.0 ? std::array<std::int32_t, 3>{1, 2, 3} : std::array<std::int32_t, 3>{1, 3, 2}};
+  for (std::int32_t k = 0; k < 20; ++k) {
+    const double z = SIZE * rise * (1.0 + 0.1 * uniform(random));
+    fan.vertices.emplace_back(SIZE, -SIZE * (0.45 + 0.1 * uniform(random)), z);
+    fan.vertices.emplace_back(SIZE, SIZE * (0.5 + 0.05 * uniform(random)), z);
+    fan.triangles.push_back({0, 2 * k + 4, 2 * k + 5});
+  }
+  return fan;
+}
+
+/// Corners of more than 64 wings together keep the direction that they have, at a gap of rounding.
+TEST(FlatScenes, TipsOfManyCrossingTriangles) {
+  std::mt19937_64 random(17);
+  std::size_t found = 0;
+  for (int i = 0; i < 20; ++i) {
+    const TriangleMesh above = small_fan(0.0145, random), below = small_fan(-0.0145, random);
+    FlatComparison both(make_scene(above, below, 1e-3));
+    both.check({Vec3(0.0, 0.0, -2e-12 * (0.5 + uniform(random))), Eigen::Quaterniond::Identity()});
+    found += both.found();
+  }
+  EXPECT_GT(found, 20u) << "tips, beside what intersects";
+}
+
 /// Nearly touching, where rounding lets the truth accept a tilt that is clear at larger gaps.
 TEST(FlatScenes, TiltedBoxesThatNearlyTouch) {
   std::mt19937_64 random(9);

@@ -9,6 +9,7 @@
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/certified/decide/filter.h>
 #include <lmdbench/methods/certified/decide/touching_pairs.h>
+#include <lmdbench/methods/certified/layout/single_precision.h>
 
 #include <algorithm>
 #include <array>
@@ -21,14 +22,8 @@ namespace lmdbench {
 
 namespace {
 
-/// Relative to the coordinates: up to this distance rounding dominates a direction between two
-/// points; above it rounding / distance is below POLAR_SLACK.
-constexpr double RELATIVE_TOUCH = 2e-8;
 /// PairFilter::margin: above what is granted at half the touch distance (128 * 2.2e-16 / 1e-8).
 constexpr double FILTER_MARGIN = 1e-5;
-/// PairFilter::tiny relative to the coordinates: of such a length rounding is well under the
-/// margin.
-constexpr double RELATIVE_TINY = 2e-8;
 /// A motion of more cutoffs in a frame is a jump: next to nothing would be kept.
 constexpr double LARGEST_PACE = 1.0;
 
@@ -176,9 +171,7 @@ struct Certified::Frame {
     }
     const PairAnswer answer = filter(on_moving, on_fixed, lever_arm);
     if (answer.verdict == PairVerdict::NO_LMD) {
-      // Without a certificate it says that TouchingPairs asks.
-      LMDBENCH_ENSURES(answer.certificate.slack < 0.0 || !has_contact(pair, on_moving, on_fixed),
-                       "a margin of the filter below a tolerance");
+      LMDBENCH_ENSURES(!has_contact(pair, on_moving, on_fixed), "a margin of the filter below a tolerance");
       return answer.certificate;
     }
     ++counters[Counter::DECISIONS];
@@ -330,8 +323,9 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const double reach = kept_reach(pair.tolerance, hierarchy_moving_, fixed_.hierarchy);
   const double search_distance = std::max(reach, touch);
   const bool keep = follow_motion(transform, touch, search_distance);
-  const PairFilter filter{pair, reach, touch, FILTER_MARGIN, RELATIVE_TINY * coordinates};
-  const WideQuery query(hierarchy_moving_, fixed_.hierarchy, transform, reach, touch);
+  // Of features no longer than touch rounding is well under the margin, at all poses that are kept.
+  const PairFilter filter{pair, reach, touch, FILTER_MARGIN, touch};
+  WideQuery query(hierarchy_moving_, fixed_.hierarchy, transform, reach, touch);
   const BorrowedScratch borrowed;
   SearchScratch& scratch = *borrowed;
   scratch.contacts.clear();
@@ -339,7 +333,10 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   std::optional<SignedPair> signs;
   if (signs_moving_ != nullptr) signs.emplace(pair, *signs_moving_, *fixed_.signs);
   const bool keeps = keep && query.possible && fixed_.policy.keep();
-  if (!keeps) fixed_.front.clear();
+  if (keeps)
+    query.limits.reach = round_up_to_single(reach);  // At all poses of a plan.
+  else
+    fixed_.front.clear();
   Frame frame{hierarchy_moving_,
               fixed_.hierarchy,
               pair,

@@ -179,8 +179,8 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   }
 }
 
-/// A body straight behind a cone passes it on the side and comes into it in front. Next to the axis
-/// squares cancel, so that how far it is from the axis, and how fast it gets away, are not known.
+/// A body straight behind a cone passes it on the side and comes into it in front. Next to the
+/// axis squares cancel: how far it is from the axis, and how fast it gets away, are not known.
 TEST(WideLifetime, WhatComesRoundFromBehindAConeIsNotForgotten) {
   constexpr double BEHIND = 2.2, RADIUS = 0.1;
   const Vec3 velocity(0.015, 0.0, 0.06);  // Of the body, a frame.
@@ -213,6 +213,41 @@ TEST(WideLifetime, WhatComesRoundFromBehindAConeIsNotForgotten) {
       EXPECT_EQ(result.lmd, 0u);
       EXPECT_LT(static_cast<double>(result.frames), frames) << beside << " beside the axis";
     }
+  }
+}
+
+/// A point beside a narrow cone gets away along it and drifts to its axis, from so near that what
+/// is left of the growth of |D across u|^2 is rounding.
+TEST(WideLifetime, NothingDriftsIntoANarrowConeBeforeItsFramesAreOver) {
+  std::mt19937_64 random(9);
+  for (int i = 0; i < 200000; ++i) {
+    LaneSample cone(random), point(random);
+    const double away = 0.01 + uniform(random), beside = away * 1.5e-3 * std::pow(10.0, uniform(random)),
+                 frames = 2.0 + 30.0 * uniform(random);
+    const Vec3 sideways = cone.axis.unitOrthogonal();
+    cone.centre = 0.1 * uniform(random) * random_direction(random);
+    cone.radius = cone.thickness = 0.0;
+    cone.cosine = 1.0;
+    point.centre = cone.centre + away * cone.axis + beside * sideways;
+    point.axis = -cone.axis;
+    point.radius = point.thickness = 0.0;
+    const Vec3 velocity = uniform(random) * away / frames * cone.axis - beside / frames * sideways;
+    WideForecast forecast;
+    forecast.in_moving = WideTransform(Mat3::Zero(), velocity);
+    forecast.creep = static_cast<float>(1e-5 * velocity.norm());
+    forecast.search_distance = 3.0F;
+    forecast.extent = 8.0F;
+    const bool moving_lanes = i % 2 == 1;
+    WideNode home{}, node{};
+    (moving_lanes ? cone : point).store(home, 0);
+    (moving_lanes ? point : cone).store(node, 3);
+    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+    WideLifetimeTest test{moving_lanes, {}, 0u};
+    for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(velocity[k]);
+    const WideLimits limits{3.0F, 0.0F, static_cast<float>(POSITION_ROUNDING * 2.0 * away)};
+    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, test);
+    if (result.lmd != 0) continue;
+    ASSERT_LE(static_cast<double>(result.frames), frames) << i << ", " << beside / away;
   }
 }
 

@@ -30,7 +30,10 @@ constexpr double SPREAD = TURN_FACTOR * LARGEST_TURN;
 class Rejection {
  public:
   Rejection(const PairFilter& filter, double lever_arm)
-      : filter_(filter), rounding_(2.0 * filter.pair.tolerance.rounding), lever_arm_(lever_arm) {}
+      : filter_(filter),
+        rounding_(2.0 *
+                  std::max(filter.pair.tolerance.rounding, CONTACT_ROUNDING / RELATIVE_TOUCH * filter.touch)),
+        lever_arm_(lever_arm) {}
 
   PairAnswer answer;
 
@@ -40,11 +43,10 @@ class Rejection {
   bool has_area(const Plane& plane) {
     return !plane.normal.isZero(0.0) || reject(Certificate::turned(std::numeric_limits<double>::infinity()));
   }
-  /// Next to touch the direction between points is rounding, and TouchingPairs asks: no
-  /// certificate.
+  /// Next to touch the direction between points is rounding: the definition is asked.
   bool near(const ShapeSide& from, const Vec3& /*p*/, const Vec3& /*q*/, const Vec3& d) {
     const double squared = d.squaredNorm();
-    if (squared < 0.25 * filter_.touch * filter_.touch) return reject({});
+    if (squared < 0.25 * filter_.touch * filter_.touch) return false;
     return within_reach(squared, d, from.sign());
   }
   bool above(const ShapeSide& /*from*/, double height, const auto& gradient) {

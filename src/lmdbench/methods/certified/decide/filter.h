@@ -20,6 +20,10 @@ struct PairAnswer {
   Certificate certificate;  ///< Of NO_LMD.
 };
 
+/// Touch relative to the coordinates: up to this distance rounding dominates a direction between
+/// two points; above it rounding / distance is below POLAR_SLACK.
+inline constexpr double RELATIVE_TOUCH = 2e-8;
+
 /// Rejects pairs of features in closed form (PROOF.md, lemmas 9, 19 and 20):
 /// 1. The definition's conditions are asked in order (decision/pair_conditions.h), each with a
 ///    margin above what the definition grants it. The first that fails rejects the pair; where a
@@ -30,7 +34,7 @@ struct PairAnswer {
 struct PairFilter {
   const ShapePair& pair;
   double reach;   ///< metres; at least ContactTolerance::reach
-  double touch;   ///< metres; nearer pairs than half of it are left to TouchingPairs
+  double touch;   ///< metres; of pairs nearer than half of it the definition is asked
   double margin;  ///< Relative to the lengths compared, or a sine: far above rounding.
   double tiny;    ///< metres; the size of shorter features is rounding: the definition is asked
 

@@ -50,6 +50,7 @@ template <class Lanes>
 struct LaneMotion {
   using Number = typename Lanes::Number;
   Number growth;                   ///< Of |D|^2 / 2 [m^2].
+  Number speed;                    ///< Of D [m].
   Number rise_probe, rise_lane;    ///< Of z [m].
   Number widen_probe, widen_lane;  ///< Of D . b [m]; with widths alone.
   Number extra;                    ///< Change of known size only [m].
@@ -76,13 +77,16 @@ struct Lasting {
   HWY_INLINE void beside(const typename NodeCriteria<Lanes>::Beside& x, Of of) {
     const Number zero = Lanes::set(0.0F), half_diagonal = Lanes::set(HALF_DIAGONAL);
     const Number lateral = root(largest_of(x.squared_lateral, zero));
-    // Near the axis squares cancel, and `lateral` may be far too short: there growth counts less.
-    const Number growing = motion.growth - x.z * rise(of);
+    // Next to the axis products cancel: of the growth a lower bound counts, of what grows over an
+    // upper bound of the length, of what shrinks over a lower one. Nothing shrinks faster than d.
+    const Number growing = (motion.growth - x.z * rise(of)) -
+                           root(x.squared_distance) * motion.speed * Lanes::set(GROWTH_ROUNDING);
     const auto grows = growing > zero;
-    const Number length =
-        select(grows, x.squared_lateral + x.squared_distance * Lanes::set(SQUARED_NEAR_AXIS), lateral);
+    const Number length = select(
+        grows, x.squared_lateral + x.squared_distance * Lanes::set(2.0F * DIRECTION_ROUNDING), lateral);
     const Number lateral_growth =
-        select(grows, growing * lateral, growing) / largest_of(length, Lanes::set(LEAST_LENGTH));
+        largest_of(select(grows, growing * lateral, growing) / largest_of(length, Lanes::set(LEAST_LENGTH)),
+                   -motion.speed);
     const Number side_growth = select(x.reached < x.limit, x.sine * rise(of), zero);
     ask((lateral * x.cosine - x.side) * half_diagonal,
         (side_growth - lateral_growth * x.cosine) * half_diagonal);
@@ -165,6 +169,7 @@ HWY_INLINE WideLifetimes lifetimes_of(const WideNode& node, const WideProbe& pro
       from_origin = root(Bounds::dot(bounds.cx, bounds.cy, bounds.cz, bounds.cx, bounds.cy, bounds.cz));
     }
     LaneMotion<Lanes> motion{Bounds::dot(bounds.dx, bounds.dy, bounds.dz, ex, ey, ez),
+                             root(Bounds::dot(ex, ey, ez, ex, ey, ez)),
                              Bounds::dot(ex, ey, ez, bounds.axis_x, bounds.axis_y, bounds.axis_z),
                              -Bounds::dot(ex, ey, ez, bounds.ux, bounds.uy, bounds.uz),
                              zero,

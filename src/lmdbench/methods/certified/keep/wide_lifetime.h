@@ -67,9 +67,9 @@ inline constexpr float CHOICE_FRAMES = 16.0F;
 inline constexpr float NO_CHOICE = 1e30F;
 /// Factor up to which (lateral - side) bounds how far d is outside the cone (PROOF.md, lemma 15).
 inline constexpr float HALF_DIAGONAL = 0.7F;
-/// Where a child is less than the root of this off the axis of a cone, as a sine, how fast it gets
-/// away from the axis counts less: rounding is part of it (PROOF.md, lemma 15).
-inline constexpr float SQUARED_NEAR_AXIS = 1.0F / 512.0F;
+/// What rounding changes of the growth of |D across u|^2 / 2, over |D| and the speed (PROOF.md,
+/// lemma 15).
+inline constexpr float GROWTH_ROUNDING = 1.5e-6F;
 /// Least loss or length that something is divided by.
 inline constexpr float LEAST_LENGTH = 1e-30F;
 
