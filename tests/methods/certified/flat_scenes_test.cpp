@@ -634,7 +634,8 @@ TEST(FlatScenes, AnEdgeAlongAValleyShallowerThanTheTilt) {
   EXPECT_LT(at_the_edge, static_cast<std::size_t>(tilted_poses()));
 }
 
-/// Nearly flat sheets of a few triangles, in steps of one height, known to a tolerance.
+/// Nearly flat sheets of a few triangles, in steps of one height, known to a tolerance. Diagonals
+/// run one way: between those of `sheet_of`, which alternate, fewer planted defects are told.
 TriangleMesh shallow_sheet(std::mt19937_64& random, double height, double tolerance, bool faces_up) {
   constexpr int CELLS = 2;
   TriangleMesh sheet;

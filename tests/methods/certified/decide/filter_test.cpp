@@ -130,7 +130,7 @@ TEST(PairFilterAgainstTheDefinition, TheyDifferByMarginsAlone) {
                        std::to_string(s) + " pose " + std::to_string(k));
           ContactSet set;
           decide(pair, f, g, set);
-          // Corners nearer than `touch` to corners and chains are left to the triangles that touch.
+          // Next to touch the definition is asked, whatever the conditions say.
           const auto is_next_to_touch = [&](const Contact& c) {
             return c.distance < touch && c.moving.kind != FeatureKind::FACE &&
                    c.fixed.kind != FeatureKind::FACE &&

@@ -179,6 +179,24 @@ TEST(WideLifetime, ATurnLeavesAConeNoEarlierThanItsFramesAreOver) {
   }
 }
 
+/// Lifetimes of the test of two children in one frame, of which one moves without a turn.
+/// @param velocity  a frame
+WideLifetimes lifetimes_along(const LaneSample& moving, const LaneSample& fixed, const Vec3& velocity,
+                              bool moving_lanes, const WideLimits& limits) {
+  WideNode home{}, node{};
+  (moving_lanes ? fixed : moving).store(home, 0);
+  (moving_lanes ? moving : fixed).store(node, 3);
+  WideForecast forecast;
+  forecast.in_moving = WideTransform(Mat3::Zero(), velocity);
+  forecast.creep = static_cast<float>(1e-5 * velocity.norm());
+  forecast.search_distance = limits.reach;
+  forecast.extent = 8.0F;
+  WideLifetimeTest test{moving_lanes, {}, 0u};
+  for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(velocity[k]);
+  const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
+  return test_lanes_lifetime(node, probe, limits, forecast, test);
+}
+
 /// A body straight behind a cone passes it on the side and comes into it in front. Next to the
 /// axis squares cancel: how far it is from the axis, and how fast it gets away, are not known.
 TEST(WideLifetime, WhatComesRoundFromBehindAConeIsNotForgotten) {
@@ -193,23 +211,12 @@ TEST(WideLifetime, WhatComesRoundFromBehindAConeIsNotForgotten) {
   body.cosine = 0.0;
   cone.radius = cone.thickness = body.radius = RADIUS;
   body.thickness = 1e18;
-  WideForecast forecast;
-  forecast.in_moving = WideTransform(Mat3::Zero(), velocity);
-  forecast.creep = static_cast<float>(1e-5 * velocity.norm());
-  forecast.search_distance = 1.0F;
-  forecast.extent = 4.0F;
   for (const double beside : {1e-2, 1e-3, 1e-4, 0.0}) {
     body.centre = {beside, 0.0, -BEHIND};
     double frames = 0.0;
     for (Vec3 d = body.centre; d.norm() > 1.0 || d.z() < cone.cosine * d.norm(); ++frames) d += velocity;
     for (const bool moving_lanes : {false, true}) {
-      WideNode home{}, node{};
-      (moving_lanes ? cone : body).store(home, 0);
-      (moving_lanes ? body : cone).store(node, 3);
-      const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
-      WideLifetimeTest test{moving_lanes, {}, 0u};
-      for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(velocity[k]);
-      const WideLifetimes result = test_lanes_lifetime(node, probe, {1.0F, 0.0F, 1e-5F}, forecast, test);
+      const WideLifetimes result = lifetimes_along(body, cone, velocity, moving_lanes, {1.0F, 0.0F, 1e-5F});
       EXPECT_EQ(result.lmd, 0u);
       EXPECT_LT(static_cast<double>(result.frames), frames) << beside << " beside the axis";
     }
@@ -232,20 +239,8 @@ TEST(WideLifetime, NothingDriftsIntoANarrowConeBeforeItsFramesAreOver) {
     point.axis = -cone.axis;
     point.radius = point.thickness = 0.0;
     const Vec3 velocity = uniform(random) * away / frames * cone.axis - beside / frames * sideways;
-    WideForecast forecast;
-    forecast.in_moving = WideTransform(Mat3::Zero(), velocity);
-    forecast.creep = static_cast<float>(1e-5 * velocity.norm());
-    forecast.search_distance = 3.0F;
-    forecast.extent = 8.0F;
-    const bool moving_lanes = i % 2 == 1;
-    WideNode home{}, node{};
-    (moving_lanes ? cone : point).store(home, 0);
-    (moving_lanes ? point : cone).store(node, 3);
-    const WideProbe probe = make_probe(WideChild(home, 0), WideTransform(Mat3::Identity(), Vec3::Zero()));
-    WideLifetimeTest test{moving_lanes, {}, 0u};
-    for (int k = 0; k < 3; ++k) test.probe_velocity[k] = static_cast<float>(velocity[k]);
     const WideLimits limits{3.0F, 0.0F, static_cast<float>(POSITION_ROUNDING * 2.0 * away)};
-    const WideLifetimes result = test_lanes_lifetime(node, probe, limits, forecast, test);
+    const WideLifetimes result = lifetimes_along(point, cone, velocity, i % 2 == 1, limits);
     if (result.lmd != 0) continue;
     ASSERT_LE(static_cast<double>(result.frames), frames) << i << ", " << beside / away;
   }

@@ -51,6 +51,7 @@ struct LaneMotion {
   using Number = typename Lanes::Number;
   Number growth;                   ///< Of |D|^2 / 2 [m^2].
   Number speed;                    ///< Of D [m].
+  Number growth_error;             ///< Of what `growth` leaves across an axis, by rounding [m^2].
   Number rise_probe, rise_lane;    ///< Of z [m].
   Number widen_probe, widen_lane;  ///< Of D . b [m]; with widths alone.
   Number extra;                    ///< Change of known size only [m].
@@ -79,8 +80,7 @@ struct Lasting {
     const Number lateral = root(largest_of(x.squared_lateral, zero));
     // Next to the axis products cancel: of the growth a lower bound counts, of what grows over an
     // upper bound of the length, of what shrinks over a lower one. Nothing shrinks faster than d.
-    const Number growing = (motion.growth - x.z * rise(of)) -
-                           root(x.squared_distance) * motion.speed * Lanes::set(GROWTH_ROUNDING);
+    const Number growing = (motion.growth - x.z * rise(of)) - motion.growth_error;
     const auto grows = growing > zero;
     const Number length = select(
         grows, x.squared_lateral + x.squared_distance * Lanes::set(2.0F * DIRECTION_ROUNDING), lateral);
@@ -168,8 +168,10 @@ HWY_INLINE WideLifetimes lifetimes_of(const WideNode& node, const WideProbe& pro
       lever_arm = bounds.radius + set(2.0F * forecast.search_distance);
       from_origin = root(Bounds::dot(bounds.cx, bounds.cy, bounds.cz, bounds.cx, bounds.cy, bounds.cz));
     }
+    const Number speed = root(Bounds::dot(ex, ey, ez, ex, ey, ez));
     LaneMotion<Lanes> motion{Bounds::dot(bounds.dx, bounds.dy, bounds.dz, ex, ey, ez),
-                             root(Bounds::dot(ex, ey, ez, ex, ey, ez)),
+                             speed,
+                             root(bounds.squared_distance) * speed * set(GROWTH_ROUNDING),
                              Bounds::dot(ex, ey, ez, bounds.axis_x, bounds.axis_y, bounds.axis_z),
                              -Bounds::dot(ex, ey, ez, bounds.ux, bounds.uy, bounds.uz),
                              zero,
