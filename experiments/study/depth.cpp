@@ -41,15 +41,10 @@ struct Way {
   std::vector<double> seconds;  ///< One per frame: the least of the passes.
 };
 
-Eigen::AlignedBox3d box_of(const Body& body) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& vertex : body.surface().mesh.vertices) box.extend(vertex);
-  return box;
-}
-
 /// Depth 0: the boxes are a percent apart; 1: their centres nearly meet.
 std::vector<Pose> slide(const Scene& scene, const DepthChoice& choice) {
-  const Eigen::AlignedBox3d moving = box_of(*scene.moving), fixed = box_of(*scene.fixed[0]);
+  const Eigen::AlignedBox3d moving = bounding_box(scene.moving->surface().mesh),
+                            fixed = bounding_box(scene.fixed[0].body->surface().mesh);
   const double diagonal = moving.diagonal().norm();
   const double reach = 0.5 * (moving.sizes().x() + fixed.sizes().x()) + 0.01 * diagonal;
   std::vector<Pose> poses(choice.frames + 1);

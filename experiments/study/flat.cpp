@@ -154,8 +154,7 @@ class Study {
   nlohmann::json measure(const Family& family, int cells, bool& kept_promises) {
     TriangleMesh mesh = family.make(cells, 1.0);
     mesh = scaled(mesh, DIAGONAL / bounding_box_diagonal(mesh));
-    Eigen::AlignedBox3d box;
-    for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
+    const Eigen::AlignedBox3d box = bounding_box(mesh);
     const auto body = std::make_shared<const Body>(family.name, build_surface(std::move(mesh)));
     const Scene scene{body, {body}, CUTOFF * DIAGONAL};
     const std::size_t count = body->surface().mesh.triangles.size();

@@ -98,6 +98,11 @@ def true_jumps(result):
     return f", true jumps of every frame by {label}, whose sets are the exhaustive ones there" if label else ", true jumps there, too"
 
 
+def maximum_forces(result):
+    """Of the profiles, in their order."""
+    return ", ".join(dict.fromkeys(f"{method.constant('maximum_force_n'):g}" for method in result.methods.values()))
+
+
 def describe(result):
     truth = next((truth_of(method) for method in result.methods.values()), None)
     lines = [f"{result.name}: {result.experiment.get('title') or 'no title'}"]
@@ -105,7 +110,7 @@ def describe(result):
                  f"{result.repetitions() - result.warm_up_repetitions} timed repetitions; "
                  + (f"errors against exhaustive truth in {truth.frames.size} frames{true_jumps(result)}"
                     if truth else "NO TRUTH PROBE: the times stand without an error")
-                 + f"; F_max {result.maximum_force():g} N a contact.")
+                 + f"; F_max {maximum_forces(result)} N a contact.")
     lines += ["", table([row(method) for method in result.methods.values()] + truth_rows(result)), "", crosscheck_line(result)]
     if result.has("/scene/warnings"):
         lines += [f"Note: {warning}" for warning in result.texts("/scene/warnings")]

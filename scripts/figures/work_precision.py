@@ -44,7 +44,7 @@ class Point:
         if truth_of(method) is None:
             raise ResultError(f"{result.file}: no truth probe, so its times have no error to stand beside "
                               "(remedy: run with /probes/truth/stride_frames above 0)")
-        error = method.number("force_error_rms_n") / result.maximum_force()
+        error = method.number("force_error_rms_n") / method.constant("maximum_force_n")
         self.force_error = 0.0 if error < ROUNDING else error
         self.missed = 1.0 - method.number("recall")
         self.missed_adjacent = 1.0 - method.number("recall_adjacent")

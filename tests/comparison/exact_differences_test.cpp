@@ -74,6 +74,18 @@ TEST_F(ExactDifferences, LostLmdIsNamedByFrame) {
   EXPECT_EQ(found[1].frame, 4);
 }
 
+TEST_F(ExactDifferences, PolylinesAreNamedByTheirFrame) {
+  SyntheticResult base, candidate;
+  base.polylines = candidate.polylines = true;
+  EXPECT_THAT(differences(base, candidate), IsEmpty());
+  for (const auto& [polyline, frame] : {std::pair{0, 3}, {1, 3}, {2, 6}, {3, 6}}) {
+    candidate.other_polyline = polyline;
+    const std::vector<Difference> found = differences(base, candidate);
+    ASSERT_EQ(found.size(), 4U) << "length and point of two methods";
+    for (const Difference& difference : found) EXPECT_EQ(difference.frame, frame) << difference.dataset;
+  }
+}
+
 TEST_F(ExactDifferences, CountersOfSearchesAreNamedByTheirFrameAndCanBeAllowed) {
   SyntheticResult candidate;
   candidate.search_with_more_work = 1;

@@ -48,6 +48,21 @@ void write_lists(ResultWriter& writer, const SyntheticResult& result, const std:
   write_real(writer, group + "/distance", distances, {distances.size()}, "m");
 }
 
+/// Two polylines of two points in frames 3 and 6, none in 0 and 9.
+void write_polylines(ResultWriter& writer, const SyntheticResult& result, const std::string& method) {
+  const std::string group = "/methods/" + method + "/polylines";
+  write_integers(writer, group + "/frame", {0, 3, 6, 9});
+  write_integers(writer, group + "/frame_offset", {0, 0, 2, 4, 4});
+  write_integers(writer, group + "/point_offset", {0, 2, 4, 6, 8});
+  std::vector<double> lengths(4, 0.5), points(24, 0.25);
+  if (result.other_polyline >= 0) {
+    lengths[static_cast<std::size_t>(result.other_polyline)] = 1.0;
+    points[6 * static_cast<std::size_t>(result.other_polyline) + 5] = 1.0;
+  }
+  write_real(writer, group + "/length", lengths, {4}, "m");
+  write_real(writer, group + "/point", points, {8, 3}, "m");
+}
+
 /// (repetition, column) times, all equal except for the warm-up and the spike.
 void write_times(ResultWriter& writer, const SyntheticResult& result, const std::string& path, double seconds,
                  int columns, const std::string& stage) {
@@ -109,6 +124,7 @@ void write_method(ResultWriter& writer, const SyntheticResult& result, const std
   write_real(writer, group + "/summary/local_update_median_s", {result.process_factor}, {1}, "s");
   write_real(writer, group + "/summary/force_error_p99_n", {result.summary}, {1}, "N");
   if (result.lists) write_lists(writer, result, method);
+  if (result.polylines) write_polylines(writer, result, method);
   const bool changed = searches ? result.frame_with_other_force >= 0 : result.frame_with_lost_lmd >= 0;
   writer.attribute(group, "result_hash", std::string(changed ? "changed" : "hash"));
 }

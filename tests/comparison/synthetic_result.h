@@ -28,6 +28,8 @@ struct SyntheticResult {
   int frame_with_lost_lmd = -1;            ///< certified
   int search_with_more_work = -1;          ///< original: node_pairs of that search
   bool lists = false;                      ///< LMD lists
+  bool polylines = false;                  ///< Two of two points in frames 3 and 6 each.
+  int other_polyline = -1;                 ///< Has another length and last point.
   std::string processor = "processor A";
   std::string extra_counter;  ///< Another counter of certified, "" for none
   std::string idle_counter;   ///< Another counter of certified that stays 0, "" for none

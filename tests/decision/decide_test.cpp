@@ -482,7 +482,7 @@ TEST(PolarCondition, NoDirectionIsKnownFarFromTheOneInCommon) {
   const FeatureId chain{FeatureKind::EDGE, scene.shape_moving().chain_of(along_x)};
   const double error = 1e-3;
   const auto common = [&](const ShapePair& pair, const Vec3& u) {
-    return common_direction(pair.moving, chain, pair.fixed, chain, u, error, {1e-15, 0.0}, 1e-12);
+    return common_direction(pair.moving, chain, pair.fixed, chain, u, error, 1e-15, 1e-12);
   };
   const Eigen::AngleAxisd turn(0.1, Vec3::UnitZ());
   const ShapePair from_above = scene.at({Vec3::Zero(), turn * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0)});

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -159,6 +160,130 @@ TEST(Rest, ABoxThatOverhangsTwoEdgesTouchesWithADirection) {
         0.0, 1e-9);
   }
   EXPECT_GT(intersecting, 50u);
+}
+
+LmdSet lmds_with_intersections(ShapeScene& scene, const Pose& pose,
+                               std::vector<Intersection>& intersections) {
+  const ShapePair pair = scene.at(pose);
+  ContactSet contacts = scene.contacts(pair);
+  intersections = intersections_of(pair);
+  LmdSet lmds;
+  join_contacts(pair, 0, contacts, intersections, lmds);
+  return lmds;
+}
+
+/// A prism of n sides along y with a hole of n sides in it, `gap` wider than a peg of radius 0.3.
+TriangleMesh nut(int n, double gap) {
+  TriangleMesh mesh;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / n, inner = 0.3 + gap / std::cos(std::numbers::pi / n);
+    const Vec3 x(std::cos(angle), 0.0, std::sin(angle)), y = Vec3::UnitY();
+    for (const Vec3& p : {Vec3(inner * x), Vec3(inner * x + y), Vec3(0.6 * x), Vec3(0.6 * x + y)})
+      mesh.vertices.push_back(p);
+  }
+  for (int k = 0; k < n; ++k) {
+    const int a = 4 * k, b = 4 * ((k + 1) % n);
+    for (const auto& [p, q, r, s] :
+         {std::array{a, b, b + 1, a + 1}, std::array{a + 2, a + 3, b + 3, b + 2},
+          std::array{a, a + 2, b + 2, b}, std::array{a + 1, b + 1, b + 3, a + 3}}) {
+      mesh.triangles.push_back({p, q, r});
+      mesh.triangles.push_back({p, r, s});
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh peg(int n) {
+  std::vector<Vec2> outline;
+  std::vector<std::array<std::int32_t, 3>> caps;
+  for (int k = 0; k < n; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / n;
+    outline.emplace_back(0.3 * std::cos(angle), 0.3 * std::sin(angle));
+    if (k > 1) caps.push_back({0, k - 1, k});
+  }
+  return translated(prism(outline, caps, 0.5), Vec3(0.0, 0.2, 0.0));
+}
+
+/// An edge's foot beside an obtuse inner corner counts as at its end; the other face is no nearer.
+TEST(Rest, APegInItsHoleHasOneLmdAWall) {
+  for (const int n : {4, 6, 12, 40})
+    for (double gap = 3e-14; gap < 1e-11; gap *= 1.13) {
+      ShapeScene scene(peg(n), nut(n, gap), 0.01);
+      const LmdSet lmds = scene.lmds(Pose{});
+      EXPECT_EQ(lmds.size(), static_cast<std::size_t>(n)) << n << " walls, gap " << gap << text(lmds);
+    }
+}
+
+/// Facets each of which has the direction of the next: one LMD, however far apart the first and
+/// last are and however both are turned.
+TEST(Rest, ABearingOfFacetsHasOneLmd) {
+  constexpr int FACETS = 15;
+  constexpr double GAP = 1e-7, ANGLE = 1e-3;
+  const auto arc = [&](double radius, int k) {
+    const double angle = ANGLE * (k - 0.5 * FACETS);
+    return Vec2(radius * std::sin(angle), -radius * std::cos(angle));
+  };
+  std::vector<Vec2> shaft, bed{{-0.02, -2.0}, {0.02, -2.0}};
+  for (int k = 0; k <= FACETS; ++k) shaft.push_back(arc(1.0, k));
+  for (int k = FACETS; k >= 0; --k) bed.push_back(arc(1.0 + GAP, k));
+  shaft.insert(shaft.end(), {{0.02, -0.5}, {-0.02, -0.5}});
+  const auto fan = [](const std::vector<Vec2>& outline) {
+    std::vector<std::array<std::int32_t, 3>> caps;
+    for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(outline.size()); ++k)
+      caps.push_back({0, k, k + 1});
+    return caps;
+  };
+  std::rotate(shaft.begin(), shaft.end() - 1, shaft.end());
+  for (int k = 0; k < 12; ++k) {
+    const Pose whole =
+        k < 4 ? turned_by(0.5 * std::numbers::pi * k, Vec3::UnitZ(), Vec3::Zero()) : testing::pose_of_seed(k);
+    ShapeScene scene(prism(shaft, fan(shaft), 0.02), testing::placed(prism(bed, fan(bed), 0.02), whole),
+                     1e-3);
+    const LmdSet lmds = scene.lmds(whole);
+    EXPECT_EQ(lmds.size(), 1u) << k << text(lmds);
+    EXPECT_NEAR(lmds[0].distance, GAP, 1e-13) << k;
+  }
+}
+
+/// Where a shallow tip is pressed in by less than rounding its faces cross farther from it than
+/// the tolerance: it touches or intersects, not both.
+TEST(Rest, AShallowTipThatIsPressedInIsOneContact) {
+  std::size_t intersecting = 0, touching = 0;
+  for (int k = 0; k < 400; ++k) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(k));
+    const double slope = std::pow(10.0, uniform(random, -6.5, -4.0));
+    TriangleMesh tip = make_box({1.0, 1.0, 1.0});
+    const auto middle = static_cast<std::int32_t>(tip.vertices.size());
+    std::erase_if(tip.triangles, [&](const auto& t) {
+      return std::ranges::all_of(t,
+                                 [&](auto v) { return tip.vertices[static_cast<std::size_t>(v)].z() < 0.0; });
+    });
+    tip.vertices.emplace_back(uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), -0.5 - slope);
+    std::vector<std::int32_t> base;
+    for (std::int32_t v = 0; v < middle; ++v)
+      if (tip.vertices[static_cast<std::size_t>(v)].z() < 0.0) base.push_back(v);
+    std::ranges::sort(base, {}, [&](std::int32_t v) {
+      const Vec3& x = tip.vertices[static_cast<std::size_t>(v)];
+      return std::atan2(x.y(), x.x());
+    });
+    for (std::size_t i = 0; i < 4; ++i) tip.triangles.push_back({base[(i + 1) % 4], base[i], middle});
+    const Pose whole = k % 4 == 0 ? Pose{} : testing::pose_of_seed(k);
+    ShapeScene scene(tip, testing::placed(make_box({1.5, 1.5, 1.0}), whole), 0.1);
+    const double rounding = scene.at(whole).tolerance.rounding;
+    const double tilt = uniform(random, 0.0, 0.5) * slope;
+    const double depth = uniform(random, -0.2, 3.0) * rounding;
+    Pose pose = turned_by(tilt, Vec3(1.0, uniform(random, -1.0, 1.0), 0.0), Vec3::Zero());
+    const Vec3 lowest = pose.rotation * tip.vertices[static_cast<std::size_t>(middle)];
+    pose.translation = Vec3(0.0, 0.0, 0.5 - depth - lowest.z());
+    std::vector<Intersection> intersections;
+    const LmdSet lmds = lmds_with_intersections(scene, whole * pose, intersections);
+    EXPECT_EQ(lmds.size() + (intersections.empty() ? 0 : 1), 1u)
+        << "pose " << k << " slope " << slope << " depth " << depth / rounding << text(lmds);
+    intersecting += intersections.empty() ? 0 : 1;
+    touching += lmds.size();
+  }
+  EXPECT_GT(intersecting, 50u);
+  EXPECT_GT(touching, 50u);
 }
 
 }  // namespace

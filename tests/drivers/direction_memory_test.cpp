@@ -56,10 +56,11 @@ TEST(DirectionMemory, AnOlderFrameLendsWithinReachOfTheCutoff) {
   memory.complete(first);
   LmdSet none;
   memory.complete(none);
-  LmdSet next{touching(7, Vec3(0.09, 0, 0)), touching(8, Vec3(0.11, 0, 0))};
+  LmdSet next{touching(7, Vec3(0.09, 0, 0)), touching(8, Vec3(0.11, 0, 0)), touching(1, Vec3(0.11, 0, 0))};
   memory.complete(next);
   EXPECT_EQ(next[0].direction, Vec3(Vec3::UnitY()));
   EXPECT_TRUE(next[1].direction.hasNaN()) << "beyond the cutoff";
+  EXPECT_TRUE(next[2].direction.hasNaN()) << "also of its own pair of features";
 }
 
 TEST(DirectionMemory, OtherBodiesLendNothing) {

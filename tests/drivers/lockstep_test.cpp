@@ -141,6 +141,7 @@ TEST(Lockstep, BeforeTheFirstArrivalThereIsNoForceAndNoDistance) {
   const FrameRecord& after = records[0].frames[2];
   EXPECT_EQ(after.lmd_count, 2) << "the reduction dropped one of three";
   EXPECT_EQ(after.lmd_count_before_reduction, 3.0);
+  EXPECT_EQ(after.kept_after_reduction, 2.0);
   EXPECT_DOUBLE_EQ(after.minimum_distance, 0.003) << "tracked to this frame's pose";
   EXPECT_DOUBLE_EQ(after.force.z(), -2.0 * (1.0 - 0.003)) << "away from the fixed mesh, both LMDs";
 }

@@ -42,6 +42,20 @@ TEST(NearFrame, CountsFromSixteenHalfDiagonals) {
   EXPECT_TRUE(differs(0.0, 32.1));
 }
 
+TEST(NearFrame, StaysWhereItIsAtRest) {
+  for (const bool far_at_rest : {false, true}) {
+    const Scene scene = boxes(far_at_rest ? FAR : Vec3::Zero(), Vec3::Zero());
+    auto& body = const_cast<Body&>(*scene.moving);
+    std::vector<Vec3> vertices = body.surface().mesh.vertices;
+    for (Vec3& vertex : vertices) vertex += (far_at_rest ? -1.0 : 1.0) * FAR;
+    body.deform(vertices);
+    EXPECT_EQ(NearFrame(scene).differs(), far_at_rest);
+    for (Vec3& vertex : vertices) vertex *= 2.0;
+    body.deform(vertices);
+    EXPECT_EQ(NearFrame(scene).differs(), far_at_rest);
+  }
+}
+
 TEST(NearFrame, MovesMeshesPosesAndPointsThereAndBack) {
   const Scene near = boxes(Vec3::Zero(), Vec3::Zero());
   for (const bool far_M : {false, true}) {

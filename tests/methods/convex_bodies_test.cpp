@@ -11,7 +11,11 @@
 #include <support/rounded.h>
 #include <support/scenes.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <numbers>
 
 /// Two convex bodies that are apart have exactly one LMD at every pose, at their distance.
 namespace lmdbench {
@@ -67,6 +71,155 @@ TEST(ConvexBodies, HaveOneLmdAtEveryPose) {
     }
   }
   EXPECT_GT(asked, 5 * touching);
+}
+
+/// Rounding lets a corner's short chains slope inwards, and those that nearly are one line.
+TEST(ConvexBodies, ATipOverAFaceBesideACornerHasOneLmd) {
+  struct Beside {
+    std::vector<Vec3> outline;
+    Vec3 place;
+  };
+  std::vector<Beside> cases;
+  for (const double side : {1e-2, 1e-3, 1e-4})
+    for (const double bend : {3e-7, 2e-6, 1e-5, 1e-3})
+      cases.push_back({{{-0.5, 0.3, 0},
+                        {-side, 0, 0},
+                        {0, -0.5 * side * bend, 0},
+                        {side, 0, 0},
+                        {0.5, 0.3, 0},
+                        {0.5, 1, 0},
+                        {-0.5, 1, 0}},
+                       {0, 0.5 * side, 0}});
+  for (const double side : {1e-8, 1e-9, 1e-10, 1e-11})
+    cases.push_back(
+        {{{-0.5, 0, 0}, {0, 0, 0}, {side, side, 0}, {side, 0.5, 0}, {-0.5, 0.5, 0}}, {-1e-5, 5e-5, 0}});
+  const TriangleMesh tip{{{0, 0, 0}, {0.1, 0, 0.1}, {-0.05, 0.08, 0.1}, {-0.05, -0.08, 0.1}},
+                         {{1, 2, 3}, {0, 2, 1}, {0, 3, 2}, {0, 1, 3}}};
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (const bool is_turned : {false, true}) {
+      const Pose whole = is_turned ? testing::pose_of_seed(i) : Pose{};
+      TriangleMesh block = translated(testing::make_frustum(cases[i].outline, 0.5, 1.0, Vec3::Zero()).mesh(),
+                                      Vec3(0, 0, -0.5));
+      const Scene scene = testing::make_scene(tip, testing::placed(std::move(block), whole), 1.0);
+      Pose pose;
+      pose.translation = cases[i].place + Vec3(0, 0, 0.5);
+      for (const char* const method : {"exhaustive", "certified"}) {
+        const LmdSet lmds = lmds_at(*make_method(method, scene), whole * pose);
+        EXPECT_EQ(lmds.size(), 1u) << method << ", case " << i << text(lmds);
+      }
+    }
+}
+
+/// A face is cut at a vertex beside a corner, whose place rounding takes off the face's plane.
+TEST(ConvexBodies, ACutBesideACornerLeavesItsCone) {
+  for (const double beside : {1e-4, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
+    for (const double off : {0.0, 1e-16, 1e-15, 1e-14}) {
+      TriangleMesh prism =
+          testing::make_frustum(testing::regular_polygon(8, 1.0, 0.0), 1.0, 1.0, Vec3::Zero()).mesh();
+      std::erase_if(prism.triangles, [](const auto& t) { return std::ranges::max(t) < 8; });
+      const auto middle = static_cast<std::int32_t>(prism.vertices.size());
+      prism.vertices.emplace_back(1.0 - beside, 0.0, -off);
+      for (std::int32_t k = 0; k < 8; ++k) prism.triangles.push_back({middle, (k + 1) % 8, k});
+      const Scene scene =
+          testing::make_scene(std::move(prism), translated(make_box({6, 6, 1}), Vec3(0, 0, -0.5)), 0.5);
+      const auto truth = make_method("exhaustive", scene), certified = make_method("certified", scene);
+      for (const double gap : {1e-3, 1e-8})
+        for (const double tilt : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3}) {
+          Pose pose{Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vec3::UnitY()))};
+          pose.translation.z() = gap - (pose.rotation * Vec3::UnitX()).z();
+          for (const auto& method : {truth.get(), certified.get()}) {
+            const LmdSet lmds = lmds_at(*method, pose);
+            EXPECT_EQ(lmds.size(), 1u) << method->description().name << ", " << beside << " beside, " << off
+                                       << " off, gap " << gap << ", tilt " << tilt;
+          }
+        }
+    }
+}
+
+/// Heights f(x) + g(y) of a convex top over the knots of a grid, with slopes from 3e-9 to 1e-3,
+/// walls down from it; turned over on demand.
+TriangleMesh shallow_cap(std::mt19937_64& random, bool is_upside_down) {
+  const auto knots_and_heights = [&] {
+    const std::size_t count = 2 + random() % 3;
+    std::vector<double> knots{-0.5}, slopes;
+    for (std::size_t k = 1; k < count; ++k) {
+      knots.push_back(-0.5 + (static_cast<double>(k) - 0.4 * uniform(random)) / static_cast<double>(count));
+      slopes.push_back(std::pow(10.0, -8.5 + 5.5 * uniform(random)) * (random() % 2 == 0 ? 1.0 : -1.0));
+    }
+    knots.back() = 0.5;
+    if (random() % 3 == 0) slopes.front() = 0.0;
+    std::ranges::sort(slopes, std::greater());
+    std::vector<Vec2> result{{knots[0], 0.0}};
+    for (std::size_t k = 1; k < count; ++k)
+      result.emplace_back(knots[k], result.back().y() + slopes[k - 1] * (knots[k] - knots[k - 1]));
+    return result;
+  };
+  const std::vector<Vec2> f = knots_and_heights(), g = knots_and_heights();
+  const auto at = [&](std::size_t i, std::size_t k) { return static_cast<std::int32_t>(i * g.size() + k); };
+  TriangleMesh mesh;
+  for (const Vec2& x : f)
+    for (const Vec2& y : g) mesh.vertices.emplace_back(x.x(), y.x(), x.y() + y.y());
+  for (std::size_t i = 0; i + 1 < f.size(); ++i)
+    for (std::size_t k = 0; k + 1 < g.size(); ++k) {
+      mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  std::vector<std::int32_t> border;
+  for (std::size_t i = 0; i + 1 < f.size(); ++i) border.push_back(at(i, 0));
+  for (std::size_t k = 0; k + 1 < g.size(); ++k) border.push_back(at(f.size() - 1, k));
+  for (std::size_t i = f.size() - 1; i > 0; --i) border.push_back(at(i, g.size() - 1));
+  for (std::size_t k = g.size() - 1; k > 0; --k) border.push_back(at(0, k));
+  const auto base = static_cast<std::int32_t>(mesh.vertices.size());
+  const auto n = static_cast<std::int32_t>(border.size());
+  for (const std::int32_t v : border) {
+    const Vec3 x = mesh.vertices[static_cast<std::size_t>(v)];
+    mesh.vertices.emplace_back(x.x(), x.y(), -0.5);
+  }
+  for (std::int32_t k = 0; k < n; ++k) {
+    const std::int32_t next = (k + 1) % n, top = border[static_cast<std::size_t>(k)],
+                       next_top = border[static_cast<std::size_t>(next)];
+    mesh.triangles.push_back({base + k, base + next, next_top});
+    mesh.triangles.push_back({base + k, next_top, top});
+    if (k > 0 && k + 1 < n) mesh.triangles.push_back({base, base + next, base + k});
+  }
+  if (is_upside_down) {
+    for (Vec3& x : mesh.vertices) x.z() = -x.z();
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return mesh;
+}
+
+/// Nearly flush: far corners and edges have directions within rounding / distance of both cones.
+TEST(ConvexBodies, NearlyFlushCapsHaveOneLmd) {
+  int asked = 0;
+  for (int s = 0; s < scene_count() / 3; ++s) {
+    const std::uint64_t seed = first_seed() + static_cast<std::uint64_t>(s);
+    std::mt19937_64 random(seed);
+    const Scene scene = testing::make_scene(shallow_cap(random, true), shallow_cap(random, false), 0.1);
+    const auto truth = make_method("exhaustive", scene), certified = make_method("certified", scene);
+    for (int k = 0; k < 20; ++k) {
+      const double yaw = k % 3 == 0   ? 0.5 * std::numbers::pi * static_cast<double>(random() % 4)
+                         : k % 3 == 1 ? std::pow(10.0, -9.0 + 6.0 * uniform(random))
+                                      : 6.0 * uniform(random);
+      const Vec3 axis = Vec3(uniform(random) - 0.5, uniform(random) - 0.5, 0.0).normalized();
+      const double tilt = random() % 3 == 0 ? 0.0 : std::pow(10.0, -9.5 + 6.5 * uniform(random));
+      Pose pose{Vec3(0.0, 0.0, 3e-3),
+                Eigen::Quaterniond(Eigen::AngleAxisd(tilt, axis)) * Eigen::AngleAxisd(yaw, Vec3::UnitZ())};
+      if (random() % 2 == 0) pose.translation += Vec3(uniform(random), uniform(random), 0.0) * 0.3;
+      const LmdSet far = lmds_at(*truth, pose);
+      ASSERT_EQ(far.size(), 1u) << "scene " << seed << " pose " << k;
+      const double gap = std::pow(10.0, -13.0 + 8.0 * uniform(random));
+      pose.translation.z() -= far[0].point_moving.z() - far[0].point_fixed.z() - gap;
+      const LmdSet lmds = lmds_at(*truth, pose);
+      if (!lmds.empty() && lmds.front().distance == 0.0) continue;
+      ++asked;
+      EXPECT_EQ(lmds.size(), 1u) << "scene " << seed << " pose " << k << "\n"
+                                 << text(pose) << "\n"
+                                 << text(lmds);
+      EXPECT_EQ(text(lmds_at(*certified, pose)), text(lmds)) << "scene " << seed << " pose " << k;
+    }
+  }
+  EXPECT_GT(asked, 17 * scene_count() / 3);
 }
 
 }  // namespace

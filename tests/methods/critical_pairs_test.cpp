@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <string>
@@ -137,6 +138,27 @@ TEST(CriticalPairs, OfCornersNextToTouchAreOneLmd) {
         ASSERT_EQ(critical.size(), 1u) << name << ", gap " << gap << "\n" << text(critical);
         EXPECT_TRUE(critical[0].is_minimum && critical[0].index == 1) << name << "\n" << text(critical);
       }
+  }
+}
+
+/// Blocks over each other's edges, with a vertex where the moving mesh has its origin: nothing may
+/// stand still when indices are taken.
+TEST(CriticalPairs, OfAlignedBlocksAddUpWhereverTheOriginIs) {
+  const TriangleMesh block = make_l_block(1.0);
+  std::mt19937_64 random(7);
+  for (int k = 0; k < 60; ++k) {
+    const Vec3 origin = block.vertices[random() % block.vertices.size()],
+               other = block.vertices[random() % block.vertices.size()];
+    const Scene scene = testing::make_scene(translated(block, -origin), translated(block, -other), 1e3);
+    Pose pose;
+    pose.rotation =
+        Eigen::AngleAxisd(0.5 * std::numbers::pi * static_cast<double>(random() % 4), Vec3::UnitZ());
+    const auto halves = [&] { return 0.5 * static_cast<double>(random() % 5) - 1.0; };
+    pose.translation = Vec3(halves(), halves(), 3.0 + halves());
+    for (const std::string& name : methods_with_critical_pairs()) {
+      const CriticalSet critical = critical_at(*make_method(name, scene), pose);
+      EXPECT_EQ(sum_of_indices(critical), 1) << name << ", pose " << k << "\n" << text(critical);
+    }
   }
 }
 

@@ -124,10 +124,12 @@ TEST(StepNumbers, ATrueJumpThatIsNotSeenIsMissed) {
   EXPECT_EQ(numbers.jumps, 0.0);
 }
 
-TEST(StepNumbers, CountOnlyTheFramesThatTheyAreAskedTo) {
+TEST(StepNumbers, JumpsAreThoseOfEveryStepAndTheRestIsInContact) {
   const PreparedRun run = approach({0.01, 0.0105, 0.011, 0.0115, 0.012, 0.0125});
   const StepNumbers numbers = blind_in(run, {2}, {true, false, false, true, true, true}).numbers;
-  EXPECT_EQ(numbers.jumps, 0.0);
+  EXPECT_EQ(numbers.jumps, 2.0) << "as summarise_jumps counts them";
+  EXPECT_EQ(numbers.switches, 0.0);
+  EXPECT_EQ(blind_in(run, {5}, std::vector<bool>(6, true)).numbers.jumps, 1.0) << "to the last frame";
   EXPECT_EQ(numbers.frames_empty, 0.0);
   EXPECT_NEAR(numbers.seconds_in_contact, 0.003, 1e-12);
 }

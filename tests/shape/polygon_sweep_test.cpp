@@ -4,9 +4,11 @@
 #include <lmdbench/shape/polygon_sweep.h>
 #include <lmdbench/shape/region_shape.h>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <support/rounded.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,6 +59,50 @@ TEST(ConvexPieces, AConvexPolygonIsOnePiece) {
       EXPECT_EQ(pieces[0].corners.size(), static_cast<std::size_t>(count));
       EXPECT_NEAR(area_of(pieces), ConvexPolygon(corners).measure().area, 1e-12);
     }
+  }
+}
+
+/// A corner lost where a side bends by 1e-10 rad took a strip as wide as a thousand roundings.
+TEST(ConvexPieces, SidesThatHardlyBendKeepTheirCorners) {
+  for (const double turn : {0.0, 0.3, 1.1, 1.6, 2.9, 4.4}) {
+    const Eigen::Rotation2Dd rotation(turn);
+    for (const double out : {3e-11, -3e-11, 1e-12, -1e-12}) {
+      // The second bend is where a tolerance in an angle would add up.
+      std::vector<Vec2> corners{{-1.0, 0.0}, {-0.3, -out}, {0.4, -out}, {1.0, 0.0}, {0.8, 1.0}, {-0.7, 1.1}};
+      for (Vec2& x : corners) x = rotation * x;
+      const auto pieces = convex_pieces(loop(corners), 1e-14);
+      EXPECT_EQ(pieces.size() == 1, out > 0.0);
+      for (const double x : {-0.6, -0.29, 0.05, 0.39, 0.7}) {
+        const double side = x < -0.3 ? (x + 1.0) / 0.7 : x < 0.4 ? 1.0 : (1.0 - x) / 0.6;
+        const auto is_held = [&](double beyond) {
+          const Vec2 point = rotation * Vec2(x, -side * out - beyond);
+          return std::ranges::any_of(pieces, [&](const auto& piece) { return piece.holds(point, 0.0); });
+        };
+        EXPECT_TRUE(is_held(-4e-14)) << "turned by " << turn << ", out by " << out << ", at " << x;
+        EXPECT_FALSE(is_held(4e-14)) << "turned by " << turn << ", out by " << out << ", at " << x;
+      }
+    }
+  }
+}
+
+/// Of a fine arc each corner is nearly on the line past it.
+TEST(ConvexPieces, AFineArcKeepsItsBulge) {
+  std::vector<Vec2> corners;
+  for (int k = 0; k <= 2000; ++k) {
+    const double x = 1e-3 * k - 1.0;
+    corners.emplace_back(x, 5e-11 * (x * x - 1.0));
+  }
+  corners.insert(corners.end(), {{0.9, 1.0}, {-0.9, 1.1}});
+  for (const double turn : {0.0, 0.3, 1.6}) {
+    const Eigen::Rotation2Dd rotation(turn);
+    std::vector<Vec2> turned;
+    for (const Vec2& x : corners) turned.emplace_back(rotation * x);
+    const auto pieces = convex_pieces(loop(turned), 1e-14);
+    const auto is_held = [&](const Vec2& x) {
+      return std::ranges::any_of(pieces, [&](const auto& piece) { return piece.holds(rotation * x, 0.0); });
+    };
+    EXPECT_TRUE(is_held({0.0, -4.99e-11})) << turn;
+    EXPECT_FALSE(is_held({0.0, -5.01e-11})) << turn;
   }
 }
 

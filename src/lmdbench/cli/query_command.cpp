@@ -5,6 +5,7 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/length_unit.h>
 #include <lmdbench/mesh/orientation_choice.h>
 #include <lmdbench/mesh/placement.h>
@@ -50,6 +51,8 @@ std::shared_ptr<const Body> load(const std::string& name, const QueryOptions& op
   TriangleMesh mesh = resolve_mesh(name, options.folder).mesh;
   if (parse_orientation(options.orient, "", "--orient") == OrientationChoice::OUTWARD)
     spdlog::info("{}: {}", name, to_text(orient_outward(mesh)));
+  if (const std::int64_t flipped = flip_flat_triangles(mesh); flipped > 0)
+    spdlog::info("{}: {}", name, flipped_text(flipped));
   FlatteningReport flattening = flatten(mesh, tolerance);
   flattening.tolerance *= metres;
   flattening.largest_move *= metres;

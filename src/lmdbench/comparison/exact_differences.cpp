@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -35,13 +36,21 @@ std::optional<std::int64_t> frame_of_row(const ResultReader& file, const std::st
   const std::string own_group = path.substr(0, path.rfind('/'));
   const std::string name = path.substr(own_group.size() + 1);
   if (own_group.ends_with("/summary")) return std::nullopt;
-  if (name == "frame_offset") return static_cast<std::int64_t>(row) - 1;  // f + 1 closes f
-  if (file.has(own_group + "/frame_offset")) {
-    const std::vector<std::int64_t> offsets = file.integers(own_group + "/frame_offset");
-    const auto after = std::upper_bound(offsets.begin(), offsets.end(), static_cast<std::int64_t>(row));
-    return static_cast<std::int64_t>(after - offsets.begin()) - 1;
+  // Lists: entry i of a list is in the row of `offsets` whose end is after it; row i + 1 closes i.
+  const auto list_of = [&](const std::string& offsets_name, std::size_t entry_of_list) {
+    const std::vector<std::int64_t> offsets = file.integers(own_group + "/" + offsets_name);
+    const auto after = std::ranges::upper_bound(offsets, static_cast<std::int64_t>(entry_of_list));
+    return static_cast<std::size_t>(after - offsets.begin()) - 1;
+  };
+  const bool names_frames = file.has(own_group + "/frame");
+  if (file.has(own_group + "/frame_offset") && name != "frame") {
+    std::size_t of_list = row;
+    if (name == "point") of_list = list_of("point_offset", row);
+    if (name.ends_with("_offset")) of_list = row > 0 ? row - 1 : 0;
+    if (name != "frame_offset") of_list = list_of("frame_offset", of_list);
+    return names_frames ? entry(file, own_group + "/frame", of_list) : static_cast<std::int64_t>(of_list);
   }
-  if (file.has(own_group + "/frame")) return entry(file, own_group + "/frame", row);
+  if (names_frames) return entry(file, own_group + "/frame", row);
   const std::size_t rows = rows_of(file, path);
   if (rows == rows_of(file, "/path/time")) return static_cast<std::int64_t>(row);
   if (rows == rows_of(file, group + "/global_frame")) return entry(file, group + "/global_frame", row);
@@ -206,16 +215,26 @@ class DatasetPair {
   }
 
   /// Rows of ragged lists correspond only up to the first frame whose number of entries differs;
-  /// `frame_offset` reports that frame.
+  /// `frame_offset` reports that frame, `point_offset` the first polyline with other points.
   std::size_t comparable_rows(std::size_t rows) const {
     if (!ragged()) return rows;
-    const std::string offsets = path_.substr(0, path_.rfind('/')) + "/frame_offset";
-    const std::vector<std::int64_t> a = base_.integers(offsets), b = candidate_.integers(offsets);
-    const std::size_t common = std::min(a.size(), b.size());
-    std::size_t same = 0;
-    while (same < common && a[same] == b[same]) ++same;
-    if (same == 0 || same == common) return rows;
-    return std::min(rows, static_cast<std::size_t>(a[same - 1]));
+    const std::string own_group = path_.substr(0, path_.rfind('/'));
+    const std::string name = path_.substr(own_group.size() + 1);
+    if (name == "frame") return rows;
+    const auto common = [&](const std::string& offsets_name) -> std::optional<std::size_t> {
+      const std::string offsets = own_group + "/" + offsets_name;
+      const std::vector<std::int64_t> a = base_.integers(offsets), b = candidate_.integers(offsets);
+      const auto differs = std::ranges::mismatch(a, b).in1;
+      if (differs == a.begin() || (differs == a.end() && a.size() == b.size())) return std::nullopt;
+      return static_cast<std::size_t>(*std::prev(differs));
+    };
+    const std::optional<std::size_t> lines = common("frame_offset");
+    if (name == "point") {
+      if (const auto points = common("point_offset")) rows = std::min(rows, *points);
+      return rows;
+    }
+    if (!lines) return rows;
+    return std::min(rows, *lines + (name == "point_offset" ? 1 : 0));
   }
 
   const ResultReader& base_;

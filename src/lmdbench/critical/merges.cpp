@@ -7,6 +7,7 @@
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/geometry/triangle_distance.h>
+#include <lmdbench/shape/shape_complex.h>
 
 #include <algorithm>
 #include <cmath>
@@ -150,7 +151,8 @@ void MergeFinder::find(const Pose& pose, const CriticalSet& critical, std::vecto
   ended_.clear();
   const auto minima = std::ranges::count_if(critical, [](const CriticalPair& c) { return c.is_basin; });
   if (minima < 2) return;
-  const RigidTransform X_WM = generic_pose(RigidTransform(pose));
+  const RigidTransform X_WM =
+      generic_pose(RigidTransform(pose), scene_.moving->prepared<ShapeComplex>().regions.extent);
   const Surface& moving = scene_.moving->surface();
   std::vector<std::size_t> ends;
   for (std::int32_t body = 0; body < static_cast<std::int32_t>(scene_.fixed.size()); ++body) {

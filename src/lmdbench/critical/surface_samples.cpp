@@ -3,6 +3,7 @@
 #include <lmdbench/critical/surface_samples.h>
 #include <lmdbench/decision/critical_index.h>
 #include <lmdbench/geometry/triangle_sides.h>
+#include <lmdbench/shape/shape_complex.h>
 #include <lmdbench/snch/minimum_distance.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ PatchBall ball_of(const Triangle& t) {
 
 /// On one fixed mesh.
 struct SurfaceSampler::Search {
-  const RigidTransform X_WM;
+  const RigidTransform X_WM, generic;  ///< ..., and where indices are taken.
   const CriticalSet& critical;
   MergeFinder& descents;
   const Surface &moving, &fixed;
@@ -102,9 +103,9 @@ struct SurfaceSampler::Search {
     if (!(seen > 0.0)) return;
     sample.area = seen * 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
     sample.point_moving = ball.centre;
-    sample.minimum = sample.distance >= one_from ? first_basin
-                                                 : descents.end_of_descent(generic_pose(X_WM), critical, body,
-                                                                           triangle, found.triangle);
+    sample.minimum = sample.distance >= one_from
+                         ? first_basin
+                         : descents.end_of_descent(generic, critical, body, triangle, found.triangle);
     if (sample.minimum != MergeFinder::NO_MINIMUM) samples.push_back(sample);
   }
 };
@@ -116,7 +117,9 @@ void SurfaceSampler::find(const Pose& X_WM, const CriticalSet& critical, std::sp
   if (moving_hierarchy.nodes.empty()) return;
   for (std::int32_t body = 0; body < static_cast<std::int32_t>(scene_.fixed.size()); ++body) {
     const Body& fixed = *scene_.fixed[static_cast<std::size_t>(body)];
-    Search search{RigidTransform(X_WM),
+    const RigidTransform at(X_WM);
+    Search search{at,
+                  generic_pose(at, scene_.moving->prepared<ShapeComplex>().regions.extent),
                   critical,
                   descents,
                   scene_.moving->surface(),

@@ -298,16 +298,19 @@ class SignReader {
 
 }  // namespace
 
-RigidTransform generic_pose(const RigidTransform& X_WM) {
+RigidTransform generic_pose(const RigidTransform& X_WM, double extent) {
   static const Mat3 turn =
       Eigen::AngleAxisd(GENERIC_TURN, Vec3(0.5377, 0.6180, -0.5736).normalized()).toRotationMatrix();
   RigidTransform turned = X_WM;
   turned.rotation = X_WM.rotation * turn;
+  // About a point that is no vertex, as the origin often is.
+  const Vec3 still = extent * Vec3(0.31, -0.47, 0.83);
+  turned.translation += X_WM.rotation * (still - turn * still);
   return turned;
 }
 
 SignedPair::SignedPair(const ShapePair& pair, const SignedFeatures& moving, const SignedFeatures& fixed)
-    : turned_(generic_pose(pair.moving.X_WS)),
+    : turned_(generic_pose(pair.moving.X_WS, pair.moving.shape.regions.extent)),
       moving_{{pair.moving.surface, pair.moving.shape, turned_, true}, moving},
       fixed_{pair.fixed, fixed},
       reach_(pair.tolerance.reach) {}

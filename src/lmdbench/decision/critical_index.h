@@ -42,7 +42,8 @@ void decide_critical(const ShapePair& pair, const SignedPair& signs, const Featu
 /// taken: far above rounding (1e-16), below LEAST_TOLERANCE.
 inline constexpr double GENERIC_TURN = 0x1p-32;
 
-/// The pose at which indices are taken: turned by GENERIC_TURN about the moving mesh's own origin.
-RigidTransform generic_pose(const RigidTransform& X_WM);
+/// The pose at which indices are taken: turned by GENERIC_TURN about a point amid the moving mesh.
+/// @param extent  its largest coordinate (FlatRegions::extent) [m]
+RigidTransform generic_pose(const RigidTransform& X_WM, double extent);
 
 }  // namespace lmdbench

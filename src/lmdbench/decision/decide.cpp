@@ -31,8 +31,6 @@ constexpr double CROSSING_ROUNDING = 1.0 / 16.0;
 /// Largest slack for that error: hierarchies bound directions to 2e-6 (POLAR_SLACK). Chains with a
 /// larger error have an extended contact, if any.
 constexpr double LARGEST_CROSSING_SLACK = 1e-6;
-/// Sine above which a direction between points must be in both cones at once; below face angles.
-constexpr double LARGEST_SINGLE_ERROR = 1e-3;
 /// Pseudo-normals that differ by less say not where two features face each other.
 constexpr double LEAST_FACING = 1e-3;
 /// Slack of the box or triangle round a region, in roundings; its own condition has less.
@@ -161,7 +159,8 @@ class Decision {
 
   void share_perpendicular(const Crossing& x) {
     if (!end_leads_down(moving_, x.a, x.s, spare_, u_, distance_) &&
-        !end_leads_down(fixed_, x.b, x.t, spare_, -u_, distance_))
+        !end_leads_down(fixed_, x.b, x.t, spare_, -u_, distance_) &&
+        direction_about(u_, std::min(1.0, unknown_)))
       add_points(p_, q_, u_, (q_ - p_).dot(u_), unknown_, unknown_);
   }
 
@@ -243,10 +242,11 @@ class Decision {
 
   /// Direction of a contact between points; next to touch it is the one that both features admit.
   /// @param d  known to `spare`; sums of pseudo-normals stand for it where the points touch
-  std::optional<KnownDirection> direction_between(const Vec3& d, double distance, double spare) const {
-    if (!is_touching(distance)) return direction_about(d / distance, std::min(1.0, spare / distance));
+  std::optional<KnownDirection> direction_between(const Vec3& d, double distance, double spare,
+                                                  double tilt = 0.0) const {
+    if (!is_touching(distance)) return direction_about(d / distance, std::min(1.0, spare / distance), tilt);
     const Vec3 u = facing();
-    return direction_about(u.isZero(LEAST_FACING) ? Vec3::UnitX() : Vec3(u.normalized()), 1.0);
+    return direction_about(u.isZero(LEAST_FACING) ? Vec3::UnitX() : Vec3(u.normalized()), 1.0, tilt);
   }
   /// Sum of the pseudo-normals of two corners or chains, or that of the one that has an outer side.
   Vec3 facing() const {
@@ -257,15 +257,10 @@ class Decision {
     if (of_g || !of_f) sum -= fixed_.direction(fixed_.surface.pseudo_normal(g));
     return sum;
   }
-  std::optional<KnownDirection> direction_about(const Vec3& u, double error) const {
+  std::optional<KnownDirection> direction_about(const Vec3& u, double error, double tilt = 0.0) const {
     // A smaller error moves nothing by more than the tolerance over the meshes.
     if (error * tolerance_.coordinates <= tolerance_.known) return KnownDirection{u, error};
-    const double tilt = tolerance_.largest_tilt;
-    for (const double sine : {0.0, tilt})
-      if (auto both = common_direction(moving_, f_, fixed_, g_, u, error, {tolerance_.rounding, sine}, tilt))
-        return both;
-    if (error > LARGEST_SINGLE_ERROR) return std::nullopt;
-    return KnownDirection{u, error};
+    return common_direction(moving_, f_, fixed_, g_, u, error, tolerance_.rounding, tilt);
   }
   double fall_of(const KnownDirection& known, double distance) const {
     const double rounded = tolerance_.direction_error(distance);
@@ -274,10 +269,12 @@ class Decision {
   }
   PolarSlack along_normal() const { return {HEIGHT_ROUNDINGS * tolerance_.rounding, 0.0}; }
 
-  /// Slack for a wing: it leads down beyond rounding and tilt. At a distance of rounding none does.
-  PolarSlack way_down(double distance) const {
-    return {tolerance_.known,
-            tolerance_.largest_tilt + tolerance_.rounding / std::max(distance, tolerance_.rounding)};
+  /// Slack for a wing: it leads down beyond tilt and rounding. At a distance of rounding none does.
+  /// @param spare  how far the foot may be from the wing's end [m]: so much beside an obtuse inner
+  ///   corner the neighbouring face is no nearer
+  PolarSlack way_down(double distance, double spare) const {
+    const double rounded = (tolerance_.rounding + spare) / std::max(distance, tolerance_.rounding);
+    return {tolerance_.known, tolerance_.largest_tilt + rounded};
   }
 
   /// Whether a point of a chain lies at an end where a wing leads down: a closed condition must not
@@ -288,7 +285,7 @@ class Decision {
                       const Vec3& u_W, double distance) const {
     const auto& ends = side.shape.ends_of_chain(feature_of(side).index);
     const auto does = [&](std::int32_t end) {
-      return leads_down(side, {FeatureKind::VERTEX, end}, u_W, way_down(distance));
+      return leads_down(side, {FeatureKind::VERTEX, end}, u_W, way_down(distance, spare));
     };
     return (parameter * line.length <= spare && does(ends[0])) ||
            ((1.0 - parameter) * line.length <= spare && does(ends[1]));
@@ -301,7 +298,7 @@ class Decision {
     if (const RegionShape* shape = side.shape.shapes.of_region(region))
       if (const auto clear = shape->clearly_holds(shape->frame.flat(p_S), CLEAR_ROUNDINGS * rounding))
         return *clear;
-    const PolarSlack slack = way_down(distance);
+    const PolarSlack slack = way_down(distance, rounding);
     bool holds = false;
     const bool some_lead_down = !for_each_face_at(side, region, p_S, rounding, [&](std::int32_t face) {
       holds = true;
@@ -374,7 +371,8 @@ class Decision {
       const PolarSlack slack{tolerance_.rounding, tolerance_.largest_tilt + tolerance_.rounding / distance};
       if (!admits(moving_, f_, u, slack) || !admits(fixed_, g_, -u, slack)) return;
     }
-    const auto both = direction_between(d, distance, tolerance_.rounding + contact.change);
+    const auto both =
+        direction_between(d, distance, tolerance_.rounding + contact.change, tolerance_.largest_tilt);
     if (!both) return;
     contact.least_gap = std::min({d0.norm(), d1.norm(), distance});
     contact.measure = end - begin;

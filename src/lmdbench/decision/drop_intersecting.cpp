@@ -33,6 +33,16 @@ double crossing_reach(const ShapePair& pair, const Intersection& crossing) {
   return std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
 }
 
+/// Planes that pierce each other by two roundings cross so far from the deepest point.
+double crossing_shift(const ShapePair& pair, const Intersection& crossing) {
+  const auto normal = [](const ShapeSide& side, std::int32_t triangle) {
+    return side.direction(side.surface.face_normals[static_cast<std::size_t>(triangle)]);
+  };
+  const double sine =
+      normal(pair.moving, crossing.triangle_moving).cross(normal(pair.fixed, crossing.triangle_fixed)).norm();
+  return 2.0 * pair.tolerance.rounding / std::max(sine, pair.tolerance.largest_tilt);
+}
+
 /// Whether one triangle is above the plane of the other.
 bool is_one_above(const ShapePair& pair, const Intersection& crossing) {
   const auto is_above_other = [&](const ShapeSide& side, std::int32_t triangle, const ShapeSide& other,
@@ -141,8 +151,8 @@ bool TouchingContacts::for_each_at(const Intersection& crossing,
   const double half_extent = crossing.dimension == 1   ? 0.5 * crossing.measure
                              : crossing.dimension == 2 ? crossing_reach(pair_, crossing)
                                                        : 0.0;
+  const Vec3 margin = Vec3::Constant(half_extent + crossing_shift(pair_, crossing));
   const auto is_far = [&](const Entry& entry) {
-    const Vec3 margin = Vec3::Constant(half_extent);
     return !Eigen::AlignedBox3d(entry.box_W.min() - margin, entry.box_W.max() + margin)
                 .contains(crossing.point);
   };

@@ -360,7 +360,9 @@ class Joining {
     }
     const std::size_t a = sets_.find_set(i), b = sets_.find_set(j);
     const std::size_t of_a = plane_of_[a], of_b = plane_of_[b];
-    if (of_a != NOT_KNOWN && of_b != NOT_KNOWN && are_at_an_angle(of_a, of_b)) return;
+    // Faces that have one direction are one, and so all of a bearing of facets.
+    const bool are_planes = has_plane(i) && has_plane(j);
+    if (!are_planes && of_a != NOT_KNOWN && of_b != NOT_KNOWN && are_at_an_angle(of_a, of_b)) return;
     link(a, b);
     if (sets_.find_set(a) == sets_.find_set(b))
       plane_of_[sets_.find_set(a)] = of_a != NOT_KNOWN ? of_a : of_b;

@@ -24,7 +24,7 @@ constexpr double CORNER_OF_SLACKS = 4.0;
 /// Parts of the way back to u from the nearest direction between planes that are tried.
 constexpr double LEAST_SHARE = 1.0 / 128.0;
 /// Sine of the angle between two planes below which they have no direction in common.
-constexpr double PARALLEL = 1e-9;
+constexpr double PARALLEL = 1e-14;
 
 /// Appends unit normals of the planes that bound the polar cone of a corner or chain, world.
 void append_bounds(const ShapeSide& side, const FeatureId& feature, std::vector<Vec3>& bounds) {
@@ -40,14 +40,14 @@ void append_bounds(const ShapeSide& side, const FeatureId& feature, std::vector<
 }
 
 /// `admits`, for a direction that is square to a chain up to `tilt`.
-bool admits_about(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack,
+bool admits_about(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, double rounding,
                   double tilt) {
   if (feature.kind == FeatureKind::EDGE) {
     const auto& ends = side.shape.ends_of_chain(feature.index);
     const Vec3 along = side.direction(side.vertex_S(ends[1]) - side.vertex_S(ends[0]));
-    if (!(std::abs(u_W.dot(along)) <= slack.length + tilt * along.norm())) return false;
+    if (!(std::abs(u_W.dot(along)) <= rounding + tilt * along.norm())) return false;
   }
-  return admits(side, feature, u_W, slack);
+  return admits(side, feature, u_W, {rounding, 0.0});
 }
 
 bool admits_strictly(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, double sine) {
@@ -62,7 +62,7 @@ bool is_outer(const Surface& surface, const FeatureId& feature, const Vec3& u_S)
 
 std::optional<KnownDirection> common_direction(const ShapeSide& moving, const FeatureId& f,
                                                const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
-                                               double error, const PolarSlack& slack, double tilt) {
+                                               double error, double rounding, double tilt) {
   LMDBENCH_EXPECTS(is_unit(u_W) && error >= 0.0 && error <= 1.0, "a direction between points at one place");
   std::vector<Vec3> bounds;
   append_bounds(moving, f, bounds);
@@ -72,8 +72,8 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
   std::vector<Vec3> admitted;
   const auto consider = [&](const Vec3& x) {
     const double length = x.norm();
-    const bool is_admitted = length > PARALLEL && admits_about(moving, f, x / length, slack, tilt) &&
-                             admits_about(fixed, g, -x / length, slack, tilt);
+    const bool is_admitted = length > PARALLEL && admits_about(moving, f, x / length, rounding, tilt) &&
+                             admits_about(fixed, g, -x / length, rounding, tilt);
     if (is_admitted) admitted.push_back(x / length);
     return is_admitted;
   };
@@ -86,7 +86,11 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
     consider(rest + off);
     consider(rest - off);
     for (std::size_t k = 0; k < i; ++k) {
-      const Vec3 both = bounds[i].cross(bounds[k]);
+      // Square to both as well where their angle is small.
+      const Vec3 beside = (bounds[k] - bounds[k].dot(bounds[i]) * bounds[i]);
+      const double sine = beside.norm();
+      if (!(sine > PARALLEL)) continue;
+      const Vec3 both = bounds[i].cross(beside / sine);
       consider(both);
       consider(-both);
     }

@@ -34,12 +34,12 @@ struct KnownDirection {
 /// between two points by more than angles between faces; each cone alone would admit another.
 /// @param f, g  index counts corners or chains
 /// @param error  sine of the angle by which u may be off; 1: u says nothing
-/// @param slack  of a direction that is known
+/// @param rounding  of a wing along a direction that is known [m]
 /// @param tilt  largest sine by which a direction may be off square to a chain
 /// @return nothing if none is that near; its error is at most what both cones leave open
 std::optional<KnownDirection> common_direction(const ShapeSide& moving, const FeatureId& f,
                                                const ShapeSide& fixed, const FeatureId& g, const Vec3& u_W,
-                                               double error, const PolarSlack& slack, double tilt);
+                                               double error, double rounding, double tilt);
 
 /// Whether a wing of a corner or chain leads towards the other mesh: u . w exceeds the slack.
 bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack);

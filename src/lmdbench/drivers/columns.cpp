@@ -47,11 +47,12 @@ std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, 
     columns.push_back(column<F>("lmd_count_before_reduction", "1",
                                 "LMD candidates of the search behind the set in use",
                                 [](const F& f) { return f.lmd_count_before_reduction; }));
-    columns.push_back(
-        column<F>("reduction_ratio", "1", "LMD candidates divided by LMDs kept", [](const F& f) {
-          return f.lmd_count > 0 ? f.lmd_count_before_reduction / static_cast<double>(f.lmd_count) : UNSET;
+    columns.push_back(column<F>(
+        "reduction_ratio", "1",
+        "LMD candidates divided by LMDs that the first reduction kept, of that search", [](const F& f) {
+          return f.kept_after_reduction > 0.0 ? f.lmd_count_before_reduction / f.kept_after_reduction : UNSET;
         }));
-    columns.push_back(column<F>("lmd_age", "s", "time since the pose that the set in use was searched at",
+    columns.push_back(column<F>("lmd_age", "s", "time since the search behind the set in use began",
                                 [](const F& f) { return f.lmd_age; }));
   }
   columns.push_back(column<F>("minimum_distance", "m", "smallest LMD distance",

@@ -19,11 +19,11 @@ std::int64_t DirectionMemory::complete(LmdSet& lmds) {
       double nearest_squared = limit * limit;
       for (const Lmd& earlier : last_) {
         if (earlier.fixed_body != lmd.fixed_body) continue;
-        if (same_feature_pair(earlier, lmd)) {
+        const double squared_distance = (earlier.point_fixed - lmd.point_fixed).squaredNorm();
+        if (same_feature_pair(earlier, lmd) && squared_distance < limit * limit) {
           lmd.direction = earlier.direction;
           break;
         }
-        const double squared_distance = (earlier.point_fixed - lmd.point_fixed).squaredNorm();
         if (squared_distance < nearest_squared) {
           nearest_squared = squared_distance;
           lmd.direction = earlier.direction;

@@ -95,12 +95,13 @@ class MethodRun {
       run(Stage::LOCAL_UPDATE,
           [&](WorkCounters& counters) { contacts_.search(*every_frame_, pose(), found_, counters); });
       if (is_from_outside_) times().way.push_back(seconds_of_others());
-      result.lmd_count_before_reduction = static_cast<double>(found_.size());
+      result.lmd_count_before_reduction = result.kept_after_reduction = static_cast<double>(found_.size());
       result.lmd_age = 0.0;
     } else {
       two_rate_->step(frame, pose(), *this);
       if (const auto& origin = two_rate_->origin()) {
         result.lmd_count_before_reduction = static_cast<double>(origin->candidates);
+        result.kept_after_reduction = static_cast<double>(origin->kept_after_reduction);
         result.lmd_age = static_cast<double>(frame - origin->frame) / input_.frame_rate_hz;
       }
     }

@@ -29,8 +29,9 @@ struct FrameRecord {
   std::int64_t lmd_count = 0;                  ///< LMDs within the cutoff.
   std::int64_t tracked_count = 0;              ///< LMDs of the set in use, also beyond the cutoff.
   double lmd_count_before_reduction = UNSET;   ///< Candidates of the search behind the set in use.
+  double kept_after_reduction = UNSET;         ///< LMDs that its first reduction kept.
   double minimum_distance = UNSET;             ///< metres
-  double lmd_age = UNSET;                      ///< Since the search of the set in use [s].
+  double lmd_age = UNSET;                      ///< Since the search of the set in use began [s].
   double effective_stiffness = 0.0;            ///< K_eff [N/m] before clipping.
   std::int64_t contact_without_direction = 0;  ///< LMDs at distance 0 without own direction (E12).
   std::int64_t lmds_without_index = 0;         ///< If the aggregation needs indices.

@@ -6,6 +6,7 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/lmdbench.h>
+#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
@@ -25,6 +26,7 @@ namespace {
 
 std::shared_ptr<const Body> prepare(TriangleMesh mesh, const std::string& planar_tolerance,
                                     const std::string& name) {
+  flip_flat_triangles(mesh);
   flatten(mesh, parse_planar_tolerance(planar_tolerance, name, "planar_tolerance"));
   return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
 }

@@ -63,7 +63,10 @@ class Body {
   /// @throws InputError as check_moved_vertices; the body is as it was
   const SurfaceChange& deform(std::span<const Vec3> vertices) {
     check_moved_vertices(name_, surface_.mesh, vertices);
-    if (!mover_) mover_.emplace(surface_);
+    if (!mover_) {
+      mover_.emplace(surface_);
+      box_at_rest_ = bounding_box(surface_.mesh);
+    }
     const SurfaceChange& change = mover_->move(vertices, surface_);
     ++deformations_;
     for (const auto& follow : followers_) follow(*this, change);
@@ -71,6 +74,10 @@ class Body {
   }
   /// How often the mesh was deformed.
   std::uint32_t deformations() const { return deformations_; }
+  /// Of the mesh before it was first deformed, in its frame [m].
+  Eigen::AlignedBox3d box_at_rest() const {
+    return deformations_ == 0 ? bounding_box(surface_.mesh) : box_at_rest_;
+  }
 
  private:
   template <class T>
@@ -92,6 +99,7 @@ class Body {
   std::string name_;
   Surface surface_;
   std::optional<SurfaceMover> mover_;
+  Eigen::AlignedBox3d box_at_rest_;  ///< Once the mesh was deformed.
   std::uint32_t deformations_ = 0;
   mutable std::mutex mutex_;
   mutable std::map<std::type_index, Preparation> preparations_;

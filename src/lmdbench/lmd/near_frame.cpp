@@ -2,19 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/lmd/near_frame.h>
 
-#include <Eigen/Geometry>
-
 #include <utility>
 
 namespace lmdbench {
 
 namespace {
-
-Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
-  return box;
-}
 
 double half_diagonal(const Eigen::AlignedBox3d& box) {
   return box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
@@ -38,8 +30,7 @@ std::shared_ptr<const Body> moved(const std::shared_ptr<const Body>& body, const
 
 NearFrame::NearFrame(const Scene& of_pair) : scene_(of_pair) {
   std::shared_ptr<const Body>& fixed = scene_.fixed.front().body;
-  const Eigen::AlignedBox3d box_M = box_of(scene_.moving->surface().mesh),
-                            box_W = box_of(fixed->surface().mesh);
+  const Eigen::AlignedBox3d box_M = scene_.moving->box_at_rest(), box_W = fixed->box_at_rest();
   origin_M_ = near_origin(box_M, half_diagonal(box_M));
   origin_W_ = near_origin(box_W, half_diagonal(box_W) + half_diagonal(box_M));
   differs_ = !origin_M_.isZero(0.0) || !origin_W_.isZero(0.0);

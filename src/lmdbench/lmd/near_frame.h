@@ -18,6 +18,7 @@ inline constexpr double FAR_AWAY = 16.0;
 /// definition: which LMDs there are is chance, and two exact methods disagree. Differences of
 /// neighbouring numbers are exact, so far vertices lose nothing when they are moved. The pose is
 /// composed with both shifts once: it moves the mesh as a whole by 1e-16 C and turns nothing.
+/// Meshes that deform keep the origins that they had at rest, so all methods ask in one frame.
 class NearFrame {
  public:
   /// @param of_pair `Scene::is_pair`

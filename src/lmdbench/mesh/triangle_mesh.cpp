@@ -3,20 +3,15 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 
 namespace lmdbench {
-namespace {
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
   return box;
 }
-
-}  // namespace
 
 double bounding_box_diagonal(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return 0.0;

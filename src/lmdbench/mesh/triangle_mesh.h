@@ -4,6 +4,8 @@
 
 #include <lmdbench/geometry/types.h>
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -29,6 +31,9 @@ struct TriangleMesh {
     return {vertices[static_cast<std::size_t>(ends[0])], vertices[static_cast<std::size_t>(ends[1])]};
   }
 };
+
+/// Axis-aligned; empty for a mesh without vertices [m].
+Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh);
 
 /// Length of the axis-aligned bounding box's diagonal; 0 for a mesh without vertices.
 double bounding_box_diagonal(const TriangleMesh& mesh);

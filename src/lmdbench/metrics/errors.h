@@ -44,9 +44,10 @@ struct RunFrames {
   double maximum_force = 0.0;  ///< F_max of one LMD [N].
 };
 
-/// Numbers of LMDs over the frames in contact, and of candidates and reduction over the searches
-/// that start in one. The reduction ratio is the sum of all candidates over the sum of those that
-/// the first reductions kept; NaN for a method without searches of its own rate.
+/// Numbers of LMDs over the frames in contact (the largest: over all), of candidates over the
+/// searches that start in one, and the reduction ratio over all searches: the sum of all candidates
+/// over the sum of those that the first reductions kept; NaN for a method without searches of its
+/// own rate.
 void summarise_counts(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames);
 
 /// Writes events into the four numbers of a summary for them.

@@ -72,8 +72,16 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const TruthFrame& here = truth[i];
     const auto frame = static_cast<std::size_t>(here.frame);
-    if (!in_contact[frame]) continue;
     const FrameRecord& now = record.frames[frame];
+    if (frame + 1 < record.frames.size()) {
+      const bool jumps = (record.frames[frame + 1].force - now.force).norm() > JUMP_SHARE * maximum_force;
+      const bool truly = here.force_jump[index] > JUMP_SHARE * maximum_force;
+      numbers.jumps += jumps ? 1.0 : 0.0;
+      numbers.true_jumps += truly ? 1.0 : 0.0;
+      numbers.false_jumps += jumps && !truly ? 1.0 : 0.0;
+      numbers.missed_jumps += truly && !jumps ? 1.0 : 0.0;
+    }
+    if (!in_contact[frame]) continue;
     const double true_length = here.force[index].norm();
     force.push_back(now.force.norm());
     true_force.push_back(true_length);
@@ -89,12 +97,6 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     }
     if (i + 1 >= truth.size()) continue;  // no true end is known here
     const FrameRecord& next = record.frames[frame + 1];
-    const bool jumps = (next.force - now.force).norm() > JUMP_SHARE * maximum_force;
-    const bool truly = here.force_jump[index] > JUMP_SHARE * maximum_force;
-    numbers.jumps += jumps ? 1.0 : 0.0;
-    numbers.true_jumps += truly ? 1.0 : 0.0;
-    numbers.false_jumps += jumps && !truly ? 1.0 : 0.0;
-    numbers.missed_jumps += truly && !jumps ? 1.0 : 0.0;
     numbers.switches += is_switch(now.force, next.force, maximum_force) ? 1.0 : 0.0;
     numbers.true_switches +=
         is_switch(here.force[index], truth[i + 1].force[index], maximum_force) ? 1.0 : 0.0;

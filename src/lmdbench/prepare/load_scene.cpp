@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/manifest.h>
+#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/prepare/load_scene.h>
@@ -33,6 +34,8 @@ MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
   PlanarTolerance tolerance = object.planar_tolerance;
   if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
   if (object.orientation == OrientationChoice::OUTWARD) note.orientation = orient_outward(mesh);
+  // Where a mesh deforms its triangles gain area.
+  if (!object.deformation) note.flipped_triangles = flip_flat_triangles(mesh);
   note.flattening = flatten(mesh, tolerance);
   note.flattening.tolerance *= scale;
   note.flattening.largest_move *= scale;

@@ -331,7 +331,8 @@ class MethodOnClock {
       first_->track(pose, found.lmds, turn.search.counters);
       turn.reduction_s = seconds_between(searched, monotonic_ns());
     }
-    turn.search.kept_after_reduction = static_cast<std::int64_t>(found.lmds.size());
+    turn.search.kept_after_reduction = found.kept_after_reduction =
+        static_cast<std::int64_t>(found.lmds.size());
     if (choice_.plant.search_sleep_s > 0.0 && listed) sleep_for_s(choice_.plant.search_sleep_s);
     // Decision E11: the later trackings of section 4.3 use the pose of their own time.
     if (trackings > 1) {
@@ -373,6 +374,7 @@ class MethodOnClock {
       const SearchedSet& searched = exchange_.searched.value();
       working_ = searched.lmds;
       candidates_ = searched.candidates;
+      kept_after_reduction_ = searched.kept_after_reduction;
       searched_at_ = searched.at;
     }
     exchange_.pose_for_tracking.fetch();
@@ -396,6 +398,7 @@ class MethodOnClock {
     out.contact_without_direction = memory_.complete(out.lmds);
     out.tracked_count = static_cast<std::int64_t>(working_.size());
     out.candidates = candidates_;
+    out.kept_after_reduction = kept_after_reduction_;
     out.at = note.at;
     out.searched_at = searched_at_;
     exchange_.tracked.publish();
@@ -448,7 +451,7 @@ class MethodOnClock {
   std::int64_t last_search_ns_ = 0;
   // Used by the tracking alone.
   LmdSet working_;
-  std::int64_t candidates_ = 0, searched_at_ = 0;
+  std::int64_t candidates_ = 0, kept_after_reduction_ = 0, searched_at_ = 0;
   DirectionMemory memory_;
 
   bool stood_still_ = false;            ///< One role stops, once.

@@ -29,7 +29,7 @@ struct PoseNote {
 /// Result of a search.
 struct SearchedSet {
   LmdSet lmds;
-  std::int64_t candidates = 0;
+  std::int64_t candidates = 0, kept_after_reduction = 0;
   std::int64_t at = 0;  ///< When its pose was sensed.
 };
 
@@ -38,7 +38,7 @@ struct TrackedSet {
   LmdSet lmds;
   std::int64_t at = 0;           ///< Sensing time of the pose tracked to.
   std::int64_t searched_at = 0;  ///< Sensing time of the pose searched at.
-  std::int64_t candidates = 0;
+  std::int64_t candidates = 0, kept_after_reduction = 0;
   std::int64_t tracked_count = 0;
   std::int64_t contact_without_direction = 0;
   double update_s = UNSET, following_s = 0.0;

@@ -18,7 +18,7 @@ namespace lmdbench {
 struct RoleRecord {
   std::string name;  ///< "servo", "tracking", "search", "scene"
   std::optional<int> core;
-  TickTimes times;                ///< Its turns, one in 0.5 ms at most.
+  TickTimes times;                ///< Its turns; of tracking one in 0.5 ms at most.
   std::vector<std::int64_t> age;  ///< By turn, at its end: of its pose; servo: of the set in use.
   std::int64_t turns = 0;         ///< All, recorded or not.
   std::int64_t lost = 0;          ///< Turns for which the recorder had no room.

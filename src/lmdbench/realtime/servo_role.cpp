@@ -42,7 +42,7 @@ const LmdSet& ServoRole::found_here(const Tick& tick, const Pose& pose) {
   record_.following_s = frames_.to_frame(tick.period);
   contacts_.search(*every_frame_, pose, found_, frame.counters);
   record_.update_s = 1e-9 * static_cast<double>(monotonic_ns() - begin);
-  frame.lmd_count_before_reduction = static_cast<double>(found_.size());
+  frame.lmd_count_before_reduction = frame.kept_after_reduction = static_cast<double>(found_.size());
   frame.tracked_count = static_cast<std::int64_t>(found_.size());
   found_.erase(std::remove_if(found_.begin(), found_.end(),
                               [&](const Lmd& lmd) { return !(lmd.distance <= profile_.cutoff); }),
@@ -59,6 +59,7 @@ const LmdSet& ServoRole::set_in_use(const Tick& tick, const Pose& pose) {
   FrameRecord& frame = record_.frame;
   frame.counters = set.counters;
   frame.lmd_count_before_reduction = static_cast<double>(set.candidates);
+  frame.kept_after_reduction = static_cast<double>(set.kept_after_reduction);
   frame.tracked_count = set.tracked_count;
   frame.contact_without_direction = set.contact_without_direction;
   record_.update_s = set.update_s;

@@ -16,8 +16,7 @@
 namespace lmdbench {
 
 MeshBounds MeshBounds::of(const Surface& surface) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& vertex : surface.mesh.vertices) box.extend(vertex);
+  const Eigen::AlignedBox3d box = bounding_box(surface.mesh);
   MeshBounds bounds;
   bounds.known = surface.mesh.planar_tolerance;
   if (box.isEmpty()) return bounds;
@@ -110,7 +109,7 @@ MeshOutline MeshOutline::of(const Surface& surface) {
     outline.z[i] = sphere.centre.z();
     outline.radius[i] = sphere.radius + PLACING_ROUNDING * (sphere.centre.norm() + sphere.radius);
   }
-  for (const Vec3& vertex : surface.mesh.vertices) outline.box.extend(vertex);
+  outline.box = bounding_box(surface.mesh);
   return outline;
 }
 

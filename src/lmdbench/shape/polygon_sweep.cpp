@@ -18,8 +18,6 @@ namespace lmdbench {
 
 namespace {
 
-/// Slopes that differ by less are one line: a piece may bend inwards by that angle.
-constexpr double SLOPE_ROUNDING = 1e-9;
 /// Most distance of the ends of a piece and its continuation, in tolerances.
 constexpr double CONTINUATION = 4.0;
 /// Keeps slopes finite.
@@ -52,17 +50,41 @@ struct Active {
   double x;
 };
 
-/// Corners of a convex piece from the bottom; the last of each side is at the top.
+/// Corners of one border of a convex piece from the bottom; the last is at the top.
+struct Border {
+  std::vector<Vec2> corners;
+  const Climb* along;     ///< The side on which its last two corners lie.
+  double left_out = 0.0;  ///< Most distance of what was left out since the last but one [m].
+
+  /// Distance of the last corner from the way past it to a new top; negative where it turns right.
+  double bend(const Vec2& top) const {
+    const Vec2 &start = corners[corners.size() - 2], &last = corners.back();
+    return cross(last - start, top - last) / (top - start).norm();
+  }
+  bool is_straight(const Vec2& top, double tolerance) const {
+    return left_out + std::abs(bend(top)) <= tolerance;
+  }
+  void extend(const Climb& climb, const Vec2& top, double tolerance) {
+    if (along != &climb && !is_straight(top, tolerance)) {
+      corners.push_back(top);
+      along = &climb;
+      left_out = 0.0;
+      return;
+    }
+    if (along != &climb) left_out += std::abs(bend(top));
+    corners.back() = top;
+  }
+};
+
 struct Outline {
-  std::vector<Vec2> left, right;
+  Border left, right;
 };
 
 /// A convex piece that may still grow upwards.
 struct OpenPiece {
   static constexpr std::size_t NONE = std::numeric_limits<std::size_t>::max();
 
-  const Climb *left, *right;  ///< The sides at its top.
-  double left_slope, right_slope;
+  const Climb *left, *right;    ///< The sides at its top.
   double left_x, right_x, top;  ///< At the top; its height.
   std::size_t part = 0;
   std::size_t outline = NONE;  ///< NONE once it has grown.
@@ -210,15 +232,13 @@ class Sweep {
     last_right_bottom_ = right_bottom[0];
     while (first_before_ < before_.size() && before_[first_before_].right_x < left_bottom[0] - gap())
       ++first_before_;
-    OpenPiece piece{&left, &right, left.slope, right.slope, left_top[0], right_top[0], top};
+    OpenPiece piece{&left, &right, left_top[0], right_top[0], top};
     OpenPiece* below = first_before_ < before_.size() ? &before_[first_before_] : nullptr;
     if (below != nullptr && below->left == &left && below->right == &right &&
         below->outline != OpenPiece::NONE) {
       // Same sides as in the row below: it met the same neighbours there.
       piece.part = below->part;
-      take_outline(piece, *below);
-      outlines_[piece.outline].left.back() = left_top;
-      outlines_[piece.outline].right.back() = right_top;
+      grow(piece, *below, left_top, right_top);
     } else {
       grow_or_begin(piece, left_bottom, right_bottom, left_top, right_top);
     }
@@ -229,7 +249,6 @@ class Sweep {
   /// A piece continues the one below where the two together are convex.
   void grow_or_begin(OpenPiece& piece, const Vec2& left_bottom, const Vec2& right_bottom,
                      const Vec2& left_top, const Vec2& right_top) {
-    const double left_slope = piece.left_slope, right_slope = piece.right_slope;
     piece.part = part_count_++;
     for (std::size_t k = first_before_; k < before_.size() && before_[k].left_x <= right_bottom[0] + gap();
          ++k) {
@@ -238,44 +257,37 @@ class Sweep {
       const bool goes_on = piece.outline == OpenPiece::NONE && below.outline != OpenPiece::NONE &&
                            std::abs(below.left_x - left_bottom[0]) <= gap() &&
                            std::abs(below.right_x - right_bottom[0]) <= gap() &&
-                           left_slope >= below.left_slope - SLOPE_ROUNDING * (1.0 + std::abs(left_slope)) &&
-                           right_slope <= below.right_slope + SLOPE_ROUNDING * (1.0 + std::abs(right_slope));
+                           is_convex(outlines_[below.outline], left_top, right_top);
       if (!goes_on) continue;
-      take_outline(piece, below);
-      extend(outlines_[piece.outline].left, piece.left_slope, left_top, left_slope);
-      extend(outlines_[piece.outline].right, piece.right_slope, right_top, right_slope);
+      grow(piece, below, left_top, right_top);
     }
     if (piece.outline != OpenPiece::NONE) return;
     piece.outline = outlines_.size();
-    outlines_.push_back({{left_bottom, left_top}, {right_bottom, right_top}});
+    outlines_.push_back({{{left_bottom, left_top}, piece.left}, {{right_bottom, right_top}, piece.right}});
   }
 
-  static void take_outline(OpenPiece& piece, OpenPiece& below) {
+  void grow(OpenPiece& piece, OpenPiece& below, const Vec2& left_top, const Vec2& right_top) {
     piece.outline = std::exchange(below.outline, OpenPiece::NONE);
-    piece.left_slope = below.left_slope;
-    piece.right_slope = below.right_slope;
+    outlines_[piece.outline].left.extend(*piece.left, left_top, tolerance_);
+    outlines_[piece.outline].right.extend(*piece.right, right_top, tolerance_);
   }
 
-  static void extend(std::vector<Vec2>& chain, double& slope, const Vec2& top, double next_slope) {
-    if (std::abs(next_slope - slope) <= SLOPE_ROUNDING * (1.0 + std::abs(slope))) {
-      chain.back() = top;
-      return;
-    }
-    chain.push_back(top);
-    slope = next_slope;
+  bool is_convex(const Outline& below, const Vec2& left_top, const Vec2& right_top) const {
+    return (below.left.bend(left_top) <= 0.0 || below.left.is_straight(left_top, tolerance_)) &&
+           (below.right.bend(right_top) >= 0.0 || below.right.is_straight(right_top, tolerance_));
   }
 
   void close(const OpenPiece& piece) {
     if (piece.outline == OpenPiece::NONE) return;
     const auto& [left, right] = outlines_[piece.outline];
     ConvexPolygon polygon;
-    polygon.corners.reserve(left.size() + right.size());
+    polygon.corners.reserve(left.corners.size() + right.corners.size());
     const auto add = [&](const Vec2& x) {
       if (polygon.corners.empty() || (polygon.corners.back() - x).norm() > tolerance_)
         polygon.corners.push_back(x);
     };
-    std::for_each(right.begin(), right.end(), add);
-    std::for_each(left.rbegin(), left.rend(), add);
+    std::ranges::for_each(right.corners, add);
+    std::for_each(left.corners.rbegin(), left.corners.rend(), add);
     while (polygon.corners.size() > 1 &&
            (polygon.corners.back() - polygon.corners.front()).norm() <= tolerance_)
       polygon.corners.pop_back();

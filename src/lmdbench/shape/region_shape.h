@@ -36,6 +36,11 @@ struct RegionShape {
   std::optional<bool> clearly_holds(const Vec2& x, double within) const;
   /// Whether all points of a segment are clearly inside; false where that is not easily told.
   bool clearly_holds_segment(const Vec2& a, const Vec2& b, double within) const;
+  /// How far its hull goes on from a point of the plane along a unit vector in it; frame S [m].
+  double depth_along(const Vec3& p_S, const Vec3& u_S) const {
+    const Vec2 axis(frame.u.dot(u_S), frame.v.dot(u_S));
+    return axis.dot(farthest_along(hull, axis) - frame.flat(p_S));
+  }
 };
 
 /// Shapes of the regions of more than one triangle; each takes a pass over its triangles and a

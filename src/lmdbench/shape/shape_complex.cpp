@@ -12,16 +12,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <numbers>
 
 namespace lmdbench {
 
 namespace {
 
-/// Where a region's chains at a corner continue in one line, its angles there may add up to this
-/// less than 180 degrees.
-constexpr double ANGLE_ROUNDING = 1e-6;
+/// A region that is wider at a corner has wings inside, too: its chains there bound a slope inwards
+/// by rounding over their length times the cosine of half the angle.
+constexpr double WIDE_ANGLE = 0.7 * std::numbers::pi;
 
 /// Growth of a mesh that deforms before its triangles are tested again for being regions alone.
 constexpr double ROOM_TO_GROW = 4.0;
@@ -167,17 +166,12 @@ void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vert
   }
   std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const std::int32_t end : ends) {
-    const Vec3 wing = position(end) - p;
-    const double length = wing.norm();
-    if (!(length > 0.0)) continue;
-    shortest = std::min(shortest, length);
-    wings_.push_back(wing);
-  }
-  // Regions of 180 degrees and more: without wings inside, a notch's corner would have a cone. No
-  // two neighbours are more than a right angle apart: of nearly opposite wings both may be level
-  // to rounding where what is between them leads down.
+  for (const std::int32_t end : ends)
+    if (const Vec3 wing = position(end) - p; wing.squaredNorm() > 0.0) wings_.push_back(wing);
+  // Without wings inside wide regions, a notch's corner would have a cone. No two neighbours are
+  // more than a right angle apart: of nearly opposite wings both may be level to rounding where
+  // what is between them leads down. Those across the widest triangle and all blunt ones are as
+  // long as the region is deep, as chains may be short; sides are not, whose rounding would grow.
   std::vector<std::pair<std::int32_t, std::int32_t>> of_regions;  // region, triangle
   for (const std::int32_t t : surface.adjacency.vertex_triangles[vertex])
     if (region_of(t) >= 0 && shapes.of_region(region_of(t)) != nullptr)
@@ -186,8 +180,9 @@ void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vert
   for (std::size_t next = 0; next < of_regions.size();) {
     const std::int32_t region = of_regions[next].first;
     const Vec3& normal = regions.planes[static_cast<std::size_t>(region)].normal;
-    double angle = 0.0;
+    double angle = 0.0, widest = 0.0;
     std::vector<Vec3> inside;
+    std::vector<std::pair<double, Vec3>> across;
     for (; next < of_regions.size() && of_regions[next].first == region; ++next) {
       const std::int32_t t = of_regions[next].second;
       const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
@@ -198,12 +193,16 @@ void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vert
         const Vec3 side = position(corners[(k + 1) % 3]) - p;
         angle += angles[k];
         if (chain_of(sides[k]) < 0) inside.push_back(side);
-        if (angles[k] > 0.5 * std::numbers::pi)
-          inside.emplace_back(Eigen::AngleAxisd(0.5 * angles[k], normal) * side);
+        widest = std::max(widest, angles[k]);
+        across.emplace_back(angles[k], Eigen::AngleAxisd(0.5 * angles[k], normal) *
+                                           (side - side.dot(normal) * normal).normalized());
       }
     }
-    if (angle < std::numbers::pi - ANGLE_ROUNDING) continue;
-    for (const Vec3& wing : inside) wings_.push_back(std::min(1.0, shortest / wing.norm()) * wing);
+    if (angle < WIDE_ANGLE) continue;
+    wings_.insert(wings_.end(), inside.begin(), inside.end());
+    for (const auto& [own, inwards] : across)
+      if (own == widest || own > 0.5 * std::numbers::pi)
+        wings_.push_back(shapes.of_region(region)->depth_along(p, inwards) * inwards);
   }
 }
 
@@ -231,9 +230,7 @@ void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain
       const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
       Vec3 inwards = n.cross(along).normalized();
       if (inwards.dot(across) < 0.0) inwards = -inwards;
-      const Vec2 axis(shape->frame.u.dot(inwards), shape->frame.v.dot(inwards));
-      const double depth = axis.dot(farthest_along(shape->hull, axis) - shape->frame.flat(p));
-      wings_.push_back(std::max(across.norm(), depth) * inwards);
+      wings_.push_back(std::max(across.norm(), shape->depth_along(p, inwards)) * inwards);
     }
   }
 }

@@ -23,9 +23,9 @@ namespace lmdbench {
 ///
 /// *Wings* are vectors that span the surface round a feature: d is in the feature's polar cone when
 /// no wing has a component along d (decision/DEFINITION.md). They are differences of vertices.
-/// - Of a corner: to the other end of each chain there; in regions of 180 degrees and more at the
-///   corner also inside, no two neighbours more than a right angle apart, as long as the shortest
-///   at most; along the sides of triangles without area.
+/// - Of a corner: to the other end of each chain there; in regions wider than 126 degrees at the
+///   corner also inside, no two neighbours more than a right angle apart; along the sides of
+///   triangles without area.
 /// - Of a chain: square to it into each of its regions, as long as the region is deep.
 class ShapeComplex {
  public:

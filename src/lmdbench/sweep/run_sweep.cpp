@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -122,7 +123,7 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
   };
   set_jumps(summary, events(steps.jumps));
   set_true_jumps(summary, events(steps.true_jumps),
-                 std::count(frames.in_contact.begin(), frames.in_contact.end(), true));
+                 std::llround(steps.seconds_in_contact * frames.frame_rate_hz));
   PointErrors errors;
   for (const SummaryNumber& number : summary_numbers())
     if (const double value = summary.*number.value; !std::isnan(value))

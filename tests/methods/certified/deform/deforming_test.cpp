@@ -458,9 +458,10 @@ TEST(DeformingMethods, AllFindTheSetOfTheNewMesh) {
     for (int frame = 0; frame < 5; ++frame) {
       bend.at(0.05 * frame, vertices);
       body->deform(vertices);
-      TriangleMesh now = blob;
-      now.vertices = vertices;
-      const Scene fresh_scene{scene.moving, {make_body("fresh", now)}, scene.cutoff};
+      // From the mesh at rest, which says where the frame is.
+      const auto now = deforming_body(blob);
+      now->deform(vertices);
+      const Scene fresh_scene{scene.moving, {std::shared_ptr<const Body>(now)}, scene.cutoff};
       for (const auto& method : methods) {
         method->search(pose, kept, counters);
         make_method(method->description().name, fresh_scene)->search(pose, fresh, counters);

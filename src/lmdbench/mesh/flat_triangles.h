@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <cstdint>
+#include <string>
+
+namespace lmdbench {
+
+/// Flips the longest side of each triangle without area (ZERO_AREA_TOLERANCE) whose third corner
+/// lies on that side: meshers close a T junction so. The triangle beyond the side is cut at the
+/// corner, and both keep their numbers. The surface stays where it is; without the flip the faces
+/// on either side of the junction would end at it, each with an edge of its own.
+///
+/// Not flipped: a side that has not two triangles, one in each direction, and one whose flip would
+/// make an edge that is there already or turn a triangle over.
+/// @return how many were flipped
+std::int64_t flip_flat_triangles(TriangleMesh& mesh);
+
+/// A clause for people.
+std::string flipped_text(std::int64_t count);
+
+}  // namespace lmdbench
