@@ -496,6 +496,30 @@ TEST(PolarCondition, NoDirectionIsKnownFarFromTheOneInCommon) {
   EXPECT_FALSE(common(scene.at(Pose{}), -Vec3::UnitZ())) << "both from below";
 }
 
+/// Square to both edges to rounding, however small their angle is.
+TEST(PolarCondition, EdgesThatNearlyFollowEachOtherHaveOneDirection) {
+  const TriangleMesh ridge{
+      {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 1, -1), Vec3(1, 1, -1), Vec3(-1, -1, -1), Vec3(1, -1, -1)},
+      {{0, 1, 2}, {1, 3, 2}, {1, 0, 4}, {5, 1, 4}}};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Pose whole = testing::pose_of_seed(seed);
+    ShapeScene scene(ridge, testing::placed(ridge, whole));
+    const std::int32_t along_x = scene.moving().adjacency.triangle_edges[0][0];
+    const FeatureId chain{FeatureKind::EDGE, scene.shape_moving().chain_of(along_x)};
+    for (const double turn : {1e-12, 1e-10, 1e-8, 1e-6}) {
+      const Eigen::Quaterniond above =
+          Eigen::AngleAxisd(turn, Vec3::UnitZ()) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+      const ShapePair pair = scene.at(whole * Pose{Vec3::Zero(), above});
+      const Vec3 down = whole.rotation * Vec3(-Vec3::UnitZ()),
+                 u = whole.rotation * Vec3(0.003, 0.004, -1.0).normalized();
+      const auto common =
+          common_direction(pair.moving, chain, pair.fixed, chain, u, 0.01, pair.tolerance.rounding, 0.0);
+      ASSERT_TRUE(common) << seed << " turned by " << turn;
+      EXPECT_LE((common->u - down).norm(), 0.006) << seed << " turned by " << turn;
+    }
+  }
+}
+
 /// The fans of a vertex are a fact of the mesh. A decision that counted them again would look at
 /// all triangles of a hub, once for every feature near it.
 TEST(PolarCondition, LooksUpHowTrianglesHangTogether) {

@@ -82,13 +82,14 @@ TEST(ConvexBodies, ATipOverAFaceBesideACornerHasOneLmd) {
   std::vector<Beside> cases;
   for (const double side : {1e-2, 1e-3, 1e-4})
     for (const double bend : {3e-7, 2e-6, 1e-5, 1e-3})
-      cases.push_back({{{-0.5, 0.3, 0},
-                        {-side, 0, 0},
+      // The first corner's neighbour is cut off as one triangle, which gives it no side inside.
+      cases.push_back({{{-side, 0, 0},
                         {0, -0.5 * side * bend, 0},
                         {side, 0, 0},
                         {0.5, 0.3, 0},
                         {0.5, 1, 0},
-                        {-0.5, 1, 0}},
+                        {-0.5, 1, 0},
+                        {-0.5, 0.3, 0}},
                        {0, 0.5 * side, 0}});
   for (const double side : {1e-8, 1e-9, 1e-10, 1e-11})
     cases.push_back(
@@ -136,25 +137,9 @@ TEST(ConvexBodies, ACutBesideACornerLeavesItsCone) {
     }
 }
 
-/// Heights f(x) + g(y) of a convex top over the knots of a grid, with slopes from 3e-9 to 1e-3,
-/// walls down from it; turned over on demand.
-TriangleMesh shallow_cap(std::mt19937_64& random, bool is_upside_down) {
-  const auto knots_and_heights = [&] {
-    const std::size_t count = 2 + random() % 3;
-    std::vector<double> knots{-0.5}, slopes;
-    for (std::size_t k = 1; k < count; ++k) {
-      knots.push_back(-0.5 + (static_cast<double>(k) - 0.4 * uniform(random)) / static_cast<double>(count));
-      slopes.push_back(std::pow(10.0, -8.5 + 5.5 * uniform(random)) * (random() % 2 == 0 ? 1.0 : -1.0));
-    }
-    knots.back() = 0.5;
-    if (random() % 3 == 0) slopes.front() = 0.0;
-    std::ranges::sort(slopes, std::greater());
-    std::vector<Vec2> result{{knots[0], 0.0}};
-    for (std::size_t k = 1; k < count; ++k)
-      result.emplace_back(knots[k], result.back().y() + slopes[k - 1] * (knots[k] - knots[k - 1]));
-    return result;
-  };
-  const std::vector<Vec2> f = knots_and_heights(), g = knots_and_heights();
+/// A convex top with heights f(x) + g(y) over the knots of a grid (place, height), walls down from
+/// it; turned over on demand.
+TriangleMesh cap_over(const std::vector<Vec2>& f, const std::vector<Vec2>& g, bool is_upside_down) {
   const auto at = [&](std::size_t i, std::size_t k) { return static_cast<std::int32_t>(i * g.size() + k); };
   TriangleMesh mesh;
   for (const Vec2& x : f)
@@ -187,6 +172,61 @@ TriangleMesh shallow_cap(std::mt19937_64& random, bool is_upside_down) {
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   }
   return mesh;
+}
+
+/// With slopes from 3e-9 to 1e-3.
+TriangleMesh shallow_cap(std::mt19937_64& random, bool is_upside_down) {
+  const auto knots_and_heights = [&] {
+    const std::size_t count = 2 + random() % 3;
+    std::vector<double> knots{-0.5}, slopes;
+    for (std::size_t k = 1; k < count; ++k) {
+      knots.push_back(-0.5 + (static_cast<double>(k) - 0.4 * uniform(random)) / static_cast<double>(count));
+      slopes.push_back(std::pow(10.0, -8.5 + 5.5 * uniform(random)) * (random() % 2 == 0 ? 1.0 : -1.0));
+    }
+    knots.back() = 0.5;
+    if (random() % 3 == 0) slopes.front() = 0.0;
+    std::ranges::sort(slopes, std::greater());
+    std::vector<Vec2> result{{knots[0], 0.0}};
+    for (std::size_t k = 1; k < count; ++k)
+      result.emplace_back(knots[k], result.back().y() + slopes[k - 1] * (knots[k] - knots[k - 1]));
+    return result;
+  };
+  const std::vector<Vec2> f = knots_and_heights(), g = knots_and_heights();
+  return cap_over(f, g, is_upside_down);
+}
+
+/// Two of 35,000 such poses: a corner whose direction is square to an edge only up to the tilt, and
+/// edges that cross at 1.5e-9 rad, had an LMD of their own.
+TEST(ConvexBodies, CapsWhoseFarEdgesNearlyFaceEachOtherHaveOneLmd) {
+  struct Found {
+    std::vector<Vec2> f_moving, g_moving, f_fixed, g_fixed;
+    Pose pose;
+  };
+  const double third = 1.0 / 6.0;
+  const Found all[] = {
+      {{{-0.5, -6.121224846706902e-05}, {-third, 0}, {third, 0}, {0.5, -8.427876903865458e-07}},
+       {{-0.5, -3.011259295561113e-4}, {0, 0}, {0.5, 0}},
+       {{-0.5, -3.814476234064164e-06}, {0.5, 0}},
+       {{-0.5, -2.2788713089457586e-09}, {0.015567137007523768, 0}, {0.5, 0}},
+       {Vec3(0, 0, -8.301842757928168e-07),
+        Eigen::Quaterniond(0.9999999999999756, -1.4371292576417738e-09, -1.1627211685799405e-09,
+                           2.2038021396164876e-07)}},
+      {{{-0.5, 0}, {0.5, 0}},
+       {{-0.5, -2.714411613168471e-07},
+        {-0.2891577479408528, -1.3716768815918484e-09},
+        {-0.07043941430409006, 0},
+        {0.5, 0}},
+       {{-0.5, 0}, {0, 0}, {0.5, -9.097524334938418e-07}},
+       {{-0.5, 0}, {0.5, -1.731544912941726e-08}},
+       {Vec3(0, 0, -4.085874509389409e-09), Eigen::Quaterniond(1, 0, 0, 1.450538887084125e-09)}}};
+  for (const Found& found : all) {
+    const Scene scene = testing::make_scene(cap_over(found.f_moving, found.g_moving, true),
+                                            cap_over(found.f_fixed, found.g_fixed, false), 0.1);
+    for (const char* const method : {"exhaustive", "certified"}) {
+      const LmdSet lmds = lmds_at(*make_method(method, scene), found.pose);
+      EXPECT_EQ(lmds.size(), 1u) << method << text(lmds);
+    }
+  }
 }
 
 /// Nearly flush: far corners and edges have directions within rounding / distance of both cones.

@@ -101,8 +101,11 @@ TEST(ConvexPieces, AFineArcKeepsItsBulge) {
     const auto is_held = [&](const Vec2& x) {
       return std::ranges::any_of(pieces, [&](const auto& piece) { return piece.holds(rotation * x, 0.0); });
     };
-    EXPECT_TRUE(is_held({0.0, -4.99e-11})) << turn;
-    EXPECT_FALSE(is_held({0.0, -5.01e-11})) << turn;
+    for (double x = -0.95; x < 1.0; x += 0.1) {
+      const double border = 5e-11 * (x * x - 1.0);
+      EXPECT_TRUE(is_held({x, border + 1e-13})) << turn << " at " << x;
+      EXPECT_FALSE(is_held({x, border - 1e-13})) << turn << " at " << x;
+    }
   }
 }
 
