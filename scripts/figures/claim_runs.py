@@ -54,7 +54,7 @@ def switches(method):
     """How often a second in contact the force changes within one frame from below 5 % of F_max to above 50 % or back, with
     the limits of its count."""
     result = method.result
-    force = method.force_magnitude() / result.maximum_force()
+    force = method.force_magnitude() / method.constant("maximum_force_n")
     low, high = np.minimum(force[1:], force[:-1]), np.maximum(force[1:], force[:-1])
     return Rate([np.count_nonzero((low < ZERO_SHARE) & (high > STRONG_SHARE))], [result.seconds_in_contact()])
 

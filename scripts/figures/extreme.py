@@ -45,7 +45,7 @@ def frame_times(method):
 
 def measure(method):
     result = method.result
-    force = result.maximum_force()
+    force = method.constant("maximum_force_n")
     row = {"scene": result.name.removeprefix("extreme-"), "method": method.label, "promise": method.promise,
            "frames_in_contact": int(result.number("frames_in_contact")),
            "frames_probed": int(result.number("frames_probed"))}

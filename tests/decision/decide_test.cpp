@@ -471,15 +471,21 @@ TEST(PolarCondition, AnEdgeWithoutSidesLeavesItsDirectionOpen) {
   }
 }
 
+TriangleMesh ridge() {
+  return {{Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 1, -1), Vec3(1, 1, -1), Vec3(-1, -1, -1), Vec3(1, -1, -1)},
+          {{0, 1, 2}, {1, 3, 2}, {1, 0, 4}, {5, 1, 4}}};
+}
+
+FeatureId chain_along_x(const ShapeScene& of_ridges) {
+  const std::int32_t along_x = of_ridges.moving().adjacency.triangle_edges[0][0];
+  return {FeatureKind::EDGE, of_ridges.shape_moving().chain_of(along_x)};
+}
+
 /// Two ridges that nearly follow each other have one direction in common. Directions far beside it
 /// still lie within a small error of both cones.
 TEST(PolarCondition, NoDirectionIsKnownFarFromTheOneInCommon) {
-  const TriangleMesh ridge{
-      {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 1, -1), Vec3(1, 1, -1), Vec3(-1, -1, -1), Vec3(1, -1, -1)},
-      {{0, 1, 2}, {1, 3, 2}, {1, 0, 4}, {5, 1, 4}}};
-  ShapeScene scene(ridge, ridge);
-  const std::int32_t along_x = scene.moving().adjacency.triangle_edges[0][0];
-  const FeatureId chain{FeatureKind::EDGE, scene.shape_moving().chain_of(along_x)};
+  ShapeScene scene(ridge(), ridge());
+  const FeatureId chain = chain_along_x(scene);
   const double error = 1e-3;
   const auto common = [&](const ShapePair& pair, const Vec3& u) {
     return common_direction(pair.moving, chain, pair.fixed, chain, u, error, 1e-15, 1e-12);
@@ -498,14 +504,10 @@ TEST(PolarCondition, NoDirectionIsKnownFarFromTheOneInCommon) {
 
 /// Square to both edges to rounding, however small their angle is.
 TEST(PolarCondition, EdgesThatNearlyFollowEachOtherHaveOneDirection) {
-  const TriangleMesh ridge{
-      {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, 1, -1), Vec3(1, 1, -1), Vec3(-1, -1, -1), Vec3(1, -1, -1)},
-      {{0, 1, 2}, {1, 3, 2}, {1, 0, 4}, {5, 1, 4}}};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Pose whole = testing::pose_of_seed(seed);
-    ShapeScene scene(ridge, testing::placed(ridge, whole));
-    const std::int32_t along_x = scene.moving().adjacency.triangle_edges[0][0];
-    const FeatureId chain{FeatureKind::EDGE, scene.shape_moving().chain_of(along_x)};
+    ShapeScene scene(ridge(), testing::placed(ridge(), whole));
+    const FeatureId chain = chain_along_x(scene);
     for (const double turn : {1e-12, 1e-10, 1e-8, 1e-6}) {
       const Eigen::Quaterniond above =
           Eigen::AngleAxisd(turn, Vec3::UnitZ()) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);

@@ -121,15 +121,23 @@ std::vector<Intersection> intersections_of(const ShapePair& pair) {
   return result;
 }
 
+LmdSet lmds_with_intersections(ShapeScene& scene, const Pose& pose,
+                               std::vector<Intersection>& intersections) {
+  const ShapePair pair = scene.at(pose);
+  ContactSet contacts = scene.contacts(pair);
+  intersections = intersections_of(pair);
+  LmdSet lmds;
+  join_contacts(pair, 0, contacts, intersections, lmds);
+  return lmds;
+}
+
 TEST(Rest, ABoxInAnInnerCornerIntersectsWhereItIsInTheWall) {
   // It rests on the floor; its triangles in the wall are at that contact, on both sides of it.
   for (const double depth : {1e-12, 1e-6, 0.01}) {
     ShapeScene scene(translated(make_box({0.4, 0.4, 0.4}), Vec3::Constant(0.2)), inner_corner(1.0, 1.0), 0.1);
-    const ShapePair pair = scene.at(turned_by(0.0, Vec3::UnitZ(), Vec3(-depth, 0.3, 0.0)));
-    ContactSet contacts = scene.contacts(pair);
-    std::vector<Intersection> intersections = intersections_of(pair);
-    LmdSet lmds;
-    join_contacts(pair, 0, contacts, intersections, lmds);
+    std::vector<Intersection> intersections;
+    const LmdSet lmds =
+        lmds_with_intersections(scene, turned_by(0.0, Vec3::UnitZ(), Vec3(-depth, 0.3, 0.0)), intersections);
     EXPECT_FALSE(intersections.empty()) << depth;
     for (const Lmd& lmd : lmds) EXPECT_NE(lmd.feature_moving.kind, FeatureKind::FACE) << text(lmds);
   }
@@ -162,16 +170,6 @@ TEST(Rest, ABoxThatOverhangsTwoEdgesTouchesWithADirection) {
   EXPECT_GT(intersecting, 50u);
 }
 
-LmdSet lmds_with_intersections(ShapeScene& scene, const Pose& pose,
-                               std::vector<Intersection>& intersections) {
-  const ShapePair pair = scene.at(pose);
-  ContactSet contacts = scene.contacts(pair);
-  intersections = intersections_of(pair);
-  LmdSet lmds;
-  join_contacts(pair, 0, contacts, intersections, lmds);
-  return lmds;
-}
-
 /// A prism of n sides along y with a hole of n sides in it, `gap` wider than a peg of radius 0.3.
 TriangleMesh nut(int n, double gap) {
   TriangleMesh mesh;
@@ -193,15 +191,21 @@ TriangleMesh nut(int n, double gap) {
   return mesh;
 }
 
+/// A prism over a polygon that all of its first corner's diagonals stay in.
+TriangleMesh fan_prism(const std::vector<Vec2>& outline, double depth) {
+  std::vector<std::array<std::int32_t, 3>> caps;
+  for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(outline.size()); ++k)
+    caps.push_back({0, k, k + 1});
+  return prism(outline, caps, depth);
+}
+
 TriangleMesh peg(int n) {
   std::vector<Vec2> outline;
-  std::vector<std::array<std::int32_t, 3>> caps;
   for (int k = 0; k < n; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / n;
     outline.emplace_back(0.3 * std::cos(angle), 0.3 * std::sin(angle));
-    if (k > 1) caps.push_back({0, k - 1, k});
   }
-  return translated(prism(outline, caps, 0.5), Vec3(0.0, 0.2, 0.0));
+  return translated(fan_prism(outline, 0.5), Vec3(0.0, 0.2, 0.0));
 }
 
 /// An edge's foot beside an obtuse inner corner counts as at its end; the other face is no nearer.
@@ -227,18 +231,11 @@ TEST(Rest, ABearingOfFacetsHasOneLmd) {
   for (int k = 0; k <= FACETS; ++k) shaft.push_back(arc(1.0, k));
   for (int k = FACETS; k >= 0; --k) bed.push_back(arc(1.0 + GAP, k));
   shaft.insert(shaft.end(), {{0.02, -0.5}, {-0.02, -0.5}});
-  const auto fan = [](const std::vector<Vec2>& outline) {
-    std::vector<std::array<std::int32_t, 3>> caps;
-    for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(outline.size()); ++k)
-      caps.push_back({0, k, k + 1});
-    return caps;
-  };
   std::rotate(shaft.begin(), shaft.end() - 1, shaft.end());
   for (int k = 0; k < 12; ++k) {
     const Pose whole =
         k < 4 ? turned_by(0.5 * std::numbers::pi * k, Vec3::UnitZ(), Vec3::Zero()) : testing::pose_of_seed(k);
-    ShapeScene scene(prism(shaft, fan(shaft), 0.02), testing::placed(prism(bed, fan(bed), 0.02), whole),
-                     1e-3);
+    ShapeScene scene(fan_prism(shaft, 0.02), testing::placed(fan_prism(bed, 0.02), whole), 1e-3);
     const LmdSet lmds = scene.lmds(whole);
     EXPECT_EQ(lmds.size(), 1u) << k << text(lmds);
     EXPECT_NEAR(lmds[0].distance, GAP, 1e-13) << k;

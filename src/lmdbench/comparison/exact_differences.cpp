@@ -36,19 +36,18 @@ std::optional<std::int64_t> frame_of_row(const ResultReader& file, const std::st
   const std::string own_group = path.substr(0, path.rfind('/'));
   const std::string name = path.substr(own_group.size() + 1);
   if (own_group.ends_with("/summary")) return std::nullopt;
-  // Lists: entry i of a list is in the row of `offsets` whose end is after it; row i + 1 closes i.
-  const auto list_of = [&](const std::string& offsets_name, std::size_t entry_of_list) {
+  const auto list_of = [&](const char* offsets_name, std::size_t item) {
     const std::vector<std::int64_t> offsets = file.integers(own_group + "/" + offsets_name);
-    const auto after = std::ranges::upper_bound(offsets, static_cast<std::int64_t>(entry_of_list));
+    const auto after = std::ranges::upper_bound(offsets, static_cast<std::int64_t>(item));
     return static_cast<std::size_t>(after - offsets.begin()) - 1;
   };
   const bool names_frames = file.has(own_group + "/frame");
   if (file.has(own_group + "/frame_offset") && name != "frame") {
-    std::size_t of_list = row;
-    if (name == "point") of_list = list_of("point_offset", row);
-    if (name.ends_with("_offset")) of_list = row > 0 ? row - 1 : 0;
-    if (name != "frame_offset") of_list = list_of("frame_offset", of_list);
-    return names_frames ? entry(file, own_group + "/frame", of_list) : static_cast<std::int64_t>(of_list);
+    std::size_t at = row;  // Of a line or point, then of its frame's list.
+    if (name.ends_with("_offset")) at = row > 0 ? row - 1 : 0;  // i + 1 closes i
+    if (name == "point") at = list_of("point_offset", at);
+    if (name != "frame_offset") at = list_of("frame_offset", at);
+    return names_frames ? entry(file, own_group + "/frame", at) : static_cast<std::int64_t>(at);
   }
   if (names_frames) return entry(file, own_group + "/frame", row);
   const std::size_t rows = rows_of(file, path);
@@ -221,20 +220,12 @@ class DatasetPair {
     const std::string own_group = path_.substr(0, path_.rfind('/'));
     const std::string name = path_.substr(own_group.size() + 1);
     if (name == "frame") return rows;
-    const auto common = [&](const std::string& offsets_name) -> std::optional<std::size_t> {
-      const std::string offsets = own_group + "/" + offsets_name;
-      const std::vector<std::int64_t> a = base_.integers(offsets), b = candidate_.integers(offsets);
-      const auto differs = std::ranges::mismatch(a, b).in1;
-      if (differs == a.begin() || (differs == a.end() && a.size() == b.size())) return std::nullopt;
-      return static_cast<std::size_t>(*std::prev(differs));
-    };
-    const std::optional<std::size_t> lines = common("frame_offset");
-    if (name == "point") {
-      if (const auto points = common("point_offset")) rows = std::min(rows, *points);
-      return rows;
-    }
-    if (!lines) return rows;
-    return std::min(rows, *lines + (name == "point_offset" ? 1 : 0));
+    const std::string offsets = own_group + (name == "point" ? "/point_offset" : "/frame_offset");
+    const std::vector<std::int64_t> a = base_.integers(offsets), b = candidate_.integers(offsets);
+    const auto differs = std::ranges::mismatch(a, b).in1;
+    if (differs == a.begin() || (differs == a.end() && a.size() == b.size())) return rows;
+    const std::size_t ends = name == "point_offset" ? 1 : 0;
+    return std::min(rows, static_cast<std::size_t>(*std::prev(differs)) + ends);
   }
 
   const ResultReader& base_;

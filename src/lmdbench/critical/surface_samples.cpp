@@ -31,7 +31,7 @@ PatchBall ball_of(const Triangle& t) {
 
 /// On one fixed mesh.
 struct SurfaceSampler::Search {
-  const RigidTransform X_WM, generic;  ///< ..., and where indices are taken.
+  const RigidTransform &X_WM, &generic;  ///< ..., and where indices are taken.
   const CriticalSet& critical;
   MergeFinder& descents;
   const Surface &moving, &fixed;
@@ -115,11 +115,12 @@ void SurfaceSampler::find(const Pose& X_WM, const CriticalSet& critical, std::sp
   samples.clear();
   const auto& moving_hierarchy = scene_.moving->prepared<Hierarchy>();
   if (moving_hierarchy.nodes.empty()) return;
+  const RigidTransform at(X_WM),
+      generic = generic_pose(at, scene_.moving->prepared<ShapeComplex>().regions.extent);
   for (std::int32_t body = 0; body < static_cast<std::int32_t>(scene_.fixed.size()); ++body) {
     const Body& fixed = *scene_.fixed[static_cast<std::size_t>(body)];
-    const RigidTransform at(X_WM);
     Search search{at,
-                  generic_pose(at, scene_.moving->prepared<ShapeComplex>().regions.extent),
+                  generic,
                   critical,
                   descents,
                   scene_.moving->surface(),

@@ -87,7 +87,7 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
     consider(rest - off);
     for (std::size_t k = 0; k < i; ++k) {
       // Square to both as well where their angle is small.
-      const Vec3 beside = (bounds[k] - bounds[k].dot(bounds[i]) * bounds[i]);
+      const Vec3 beside = bounds[k] - bounds[k].dot(bounds[i]) * bounds[i];
       const double sine = beside.norm();
       if (!(sine > PARALLEL)) continue;
       const Vec3 both = bounds[i].cross(beside / sine);

@@ -20,7 +20,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -123,7 +122,9 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
   };
   set_jumps(summary, events(steps.jumps));
   set_true_jumps(summary, events(steps.true_jumps),
-                 std::llround(steps.seconds_in_contact * frames.frame_rate_hz));
+                 std::ranges::count_if(truth.frames, [&](const TruthFrame& frame) {
+                   return frames.in_contact[static_cast<std::size_t>(frame.frame)];
+                 }));
   PointErrors errors;
   for (const SummaryNumber& number : summary_numbers())
     if (const double value = summary.*number.value; !std::isnan(value))

@@ -256,10 +256,8 @@ void Certified::enumerate_from_scratch(Frame& frame) {
 bool Certified::advance_kept(Frame& frame) {
   TraversalFront& front = fixed_.front;
   TraversalFront::Scratch& scratch = frame.scratch.front;
-  // A reach below touch may change alone.
-  if (frame.search_distance != fixed_.search_distance || frame.filter.reach != fixed_.reach) front.clear();
+  if (frame.filter.reach != fixed_.reach) front.clear();  // Where touch changes nothing is kept.
   front.follow(frame.moving, fixed_.seen_moving, frame.fixed, fixed_.seen_fixed, motion_);
-  fixed_.search_distance = frame.search_distance;
   fixed_.reach = frame.filter.reach;
   fixed_.seen_moving = frame.moving.changes.now;
   fixed_.seen_fixed = frame.fixed.changes.now;

@@ -90,7 +90,7 @@ class Certified : public Method {
     TraversalFront front;         ///< Empty where nothing is kept.
     CoherencePolicy policy;
     std::uint32_t seen_moving = 0, seen_fixed = 0;  ///< Deformations that the front knows.
-    double search_distance = 0.0, reach = 0.0;      ///< For which its tests were made [m].
+    double reach = 0.0;                             ///< For which its tests were made [m].
     std::size_t tests_from_scratch = 0;             ///< Of the last search from scratch.
   };
   struct Frame;
