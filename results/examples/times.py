@@ -7,7 +7,8 @@ import numpy as np
 
 with h5py.File(sys.argv[1]) as result:
     warm_up = int(result["/methods"].attrs["warm_up_repetitions"])
-    in_contact = result["/scene/in_contact"][:].astype(bool)
     for label, method in result["/methods"].items():
+        # In a closed loop and under several profiles its own.
+        in_contact = method.get("loop/in_contact", method.get("in_contact", result["/scene/in_contact"]))[:].astype(bool)
         frames = np.median(method["local_update_time"][warm_up:], axis=0)[in_contact]
         print(f"{label}: median {1e6 * np.median(frames):.3g} us, 99 % {1e6 * np.quantile(frames, 0.99):.3g} us")

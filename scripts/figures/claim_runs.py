@@ -97,8 +97,8 @@ def k4(*runs):
         original, improved = (float(np.mean(count[result.in_contact()])) for count in counts)
         wild, calm = (float(np.sum(np.abs(np.diff(count)))) / result.seconds_in_contact() for count in counts)
         ratio = original / improved if improved > 0 else float("nan")
-        return (f"mean LMDs original {original:.2f}, improved {improved:.2f} (ratio {ratio:.2f}); LMDs gained and lost per second original {wild:.0f}, "
-                f"improved {calm:.0f}"), {"similar counts": 2 / 3 <= ratio <= 1.5, "the original fluctuates more": wild > calm}
+        return (f"mean LMDs original {original:.2f}, improved {improved:.2f} (ratio {ratio:.2f}); the number changes by original {wild:.0f}, "
+                f"improved {calm:.0f} LMDs a second"), {"similar counts": 2 / 3 <= ratio <= 1.5, "the original fluctuates more": wild > calm}
 
     return of_each(runs, look)
 

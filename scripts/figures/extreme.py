@@ -108,7 +108,7 @@ def standings(rows):
 
 LEGEND = f"""\
 *Recall, precision*: pooled over the probed frames, same features (in parentheses: neighbouring features count). *Force error*: the largest, of the
-probed frames in which the meshes are apart, against the true force under the same law. *Times*: the local update, of every frame the least of all
+probed frames in which no triangles intersect, against the true force under the same law. *Times*: the local update, of every frame the least of all
 repetitions; `original` and `improved` search beside it. *Stands*: recall with neighbouring features at least {STANDS_RECALL:.0%}, force never off by
 more than {STANDS_FORCE:.0%} of F_max, no value missing; else what is in the way. In the file, *contact frames*: the meshes are within the cutoff (in
 parentheses: frames with an LMD at distance 0); *LMDs*: most in a frame; *frames wrong*: probed frames whose set is not the true one, counted from the

@@ -60,10 +60,6 @@ COLUMNS = {
 }
 
 
-def contact_of(method):
-    return method.read("loop/in_contact" if method.has("loop") else "in_contact").astype(bool)
-
-
 def methods_of(result, profile):
     """{name: method} under a profile, by name."""
     return dict(sorted((label.removesuffix("-" + profile), method) for label, method in result.methods.items() if method.profile == profile))
@@ -87,7 +83,7 @@ def draw(runs, directory):
             force = method.read("force")
             options = {"color": style.colour_of(method), "label": label, "linewidth": 0.6}
             axes[0, column].plot(time[window], method.force_magnitude()[window], **options)
-            spectrum = np.abs(np.fft.rfft(force * np.hanning(force.shape[0])[:, None], axis=0)) * 2 / force.shape[0]
+            spectrum = np.abs(np.fft.rfft(force * np.hanning(force.shape[0])[:, None], axis=0)) * 2 / np.sum(np.hanning(force.shape[0]))
             axes[1, column].loglog(np.fft.rfftfreq(force.shape[0], 1 / rate)[1:],
                                    np.linalg.norm(spectrum, axis=1)[1:], **options)
             stiffness = method.read("effective_stiffness")
@@ -104,7 +100,7 @@ def draw(runs, directory):
 def errors(result, profile, label):
     """Error of a method's force against the exact set's under the same law, over the frames in contact: (root mean square, 99 %) [N]."""
     method, exact = (result.method(f"{name}-{profile}") for name in (label, f"exact-{label}"))
-    length = np.linalg.norm(method.read("force") - exact.read("force"), axis=1)[contact_of(method)]
+    length = np.linalg.norm(method.read("force") - exact.read("force"), axis=1)[method.in_contact()]
     return float(np.sqrt(np.mean(length**2))), float(np.percentile(length, 99))
 
 

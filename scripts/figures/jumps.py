@@ -33,8 +33,15 @@ KINDS = ("cutoff", "hand-over", "fold", "age", "loss", "false")
 Pair = collections.namedtuple("Pair", "distance force point")
 
 
+def turned(vector, orientation):
+    """(N, 3) of a vector by (N, 4) unit quaternions, w last."""
+    axis, w = orientation[:, :3], orientation[:, 3:]
+    once = np.cross(axis, vector)
+    return vector + 2 * (w * once + np.cross(axis, once))
+
+
 def travel(position, orientation, radius):
-    """Farthest way of a point of the mesh from each frame to the next [m]: translation plus the turn's arc."""
+    """Farthest way of a point of the mesh from each frame to the next [m]: of its centre, plus the turn's arc."""
     cosine = np.clip(np.abs(np.sum(orientation[1:] * orientation[:-1], axis=1)), 0, 1)
     return np.linalg.norm(np.diff(position, axis=0), axis=1) + 2 * np.arccos(cosine) * radius
 
@@ -93,7 +100,10 @@ def attribute(file):
     if REFERENCE not in run.methods:
         raise ResultError(f"{file}: /methods/{REFERENCE} is missing (remedy: add the method to the experiment)")
     time = run.time
-    steps = travel(run.read("/path/position"), run.read("/path/orientation"), 0.5 * float(run.h5["/scene/moving"].attrs["diagonal_m"]))
+    orientation = run.read("/path/orientation")
+    # Results before 1.0 do not tell the centre: the frame's origin then.
+    centre = run.read("/scene/torque_reference") if run.has("/scene/torque_reference") else np.zeros(3)
+    steps = travel(run.read("/path/position") + turned(centre, orientation), orientation, 0.5 * float(run.h5["/scene/moving"].attrs["diagonal_m"]))
     sets = {label: sets_of(run.methods[label], time.size, scene) for label in sorted(run.methods)}
     true = sets[REFERENCE]
     result = {}

@@ -144,10 +144,19 @@ class Method:
         attributes = self.result.h5[f"/methods/{self.label}"].attrs
         return float(attributes[name]) if name in attributes else self.result.scene(name)
 
+    def at_its_frames(self, group):
+        """Where a probe's group is: its own in a closed loop or under one of several profiles, else the root's."""
+        own = f"/methods/{self.label}/{group}"
+        return own if self.result.has(f"{own}/frame") else f"/{group}"
+
     def reference(self):
-        """Group of the true sets at its frames: its own in a closed loop or under one of several profiles."""
-        own = f"/methods/{self.label}/reference"
-        return own if self.result.has(f"{own}/frame") else "/reference"
+        """Group of the true sets at its frames."""
+        return self.at_its_frames("reference")
+
+    def in_contact(self):
+        """(N) whether the meshes are within its cutoff at its poses, by frame."""
+        own = next((name for name in ("loop/in_contact", "in_contact") if self.has(name)), None)
+        return self.read(own).astype(bool) if own else self.result.in_contact()
 
     def searches_every_frame(self):
         """Whether the method has no search of its own rate: its whole set is found anew in the local part."""
@@ -184,6 +193,8 @@ class Result:
         record = getattr(self, "experiment", {}).get("record", {})
         name = path.split("/")[-1]
         kind = "timings" if name.endswith("_time") else "counters" if "counters/" in path else "frames"
+        if name == "torque" and path.startswith("/methods/"):
+            return "run the experiment again with --set /record/torque=true"
         if path.startswith("/methods/") and record.get(kind) is False:
             return f"the run left it out: run the experiment again with --set /record/{kind}=true"
         return "run the experiment again"
@@ -322,9 +333,12 @@ def reference_force(method):
     if not method.result.has(dataset):
         return np.empty(0, dtype=int), np.empty(0)
     force = np.linalg.norm(method.result.read(dataset), axis=1)
-    distance = f"{method.reference()}/minimum_distance"
-    if method.result.has(distance):
-        force[method.result.read(distance) == 0.0] = np.nan  # touching triangles have no direction, so no true force
+    group = method.reference()
+    if method.result.has(f"{group}/contact_without_direction"):
+        without = method.result.read(f"{group}/contact_without_direction") > 0
+    else:  # results before 1.0 do not tell triangles that touch from those that intersect
+        without = method.result.read(f"{group}/minimum_distance") == 0.0
+    force[without] = np.nan  # no direction, so no force is the true one
     return method.result.read(f"{method.reference()}/frame").astype(int), force
 
 

@@ -67,9 +67,11 @@ def main(argv):
     parser.add_argument("--curves", type=int, default=6, help="frames whose curves are drawn")
     arguments = parser.parse_args(argv)
     with open_h5(arguments.result) as file:
-        if "polylines" not in file:
+        # Each method has its own in a closed loop and under several profiles.
+        own = [method["polylines"] for method in file["methods"].values() if "polylines" in method]
+        if not own and "polylines" not in file:
             raise ResultError(f"{arguments.result}: no /polylines (remedy: --set /record/polylines/stride_frames=5)")
-        lines = Lines(file["polylines"])
+        lines = Lines(own[0] if own else file["polylines"])
         scene = file["scene/fixed_0"].attrs
         mesh, diagonal = text(scene["mesh"]), scene["diagonal_m"]
         rate = file["scene"].attrs["frame_rate_hz"]

@@ -53,13 +53,17 @@ def row(method):
 
 def truth_rows(result):
     """The truth that the methods are compared with, a row a force law in use."""
-    if not result.has("/reference/frame"):
-        return []
-    lmds = median_and_most(result.number("true_lmd_count_median"), result.number("true_lmd_count_maximum"))
-    jumps = {}
+    rows = {}
     for method in result.methods.values():
-        jumps.setdefault(f"{method.force_law} law" + (f", {method.profile}" if method.profile else ""), method.events("true_jumps"))
-    return [[f"truth, {law}", *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3, str(rate)] for law, rate in jumps.items()]
+        group = method.reference()
+        if not result.has(f"{group}/frame"):
+            continue
+        # The program sums up the sets that all methods share.
+        lmds = (median_and_most(result.number("true_lmd_count_median"), result.number("true_lmd_count_maximum")) if group == "/reference"
+                else NOT_MEASURED)
+        law = f"{method.force_law} law" + (f", {method.profile}" if method.profile else "")
+        rows.setdefault(law, [f"truth, {law}", *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3, str(method.events("true_jumps"))])
+    return list(rows.values())
 
 
 HEADINGS = ("method", "search [ms]", "+ reduction [ms]", "local update [ms]", "LMDs", "recall [%]", "precision [%]",
@@ -76,18 +80,26 @@ def table(rows):
     return "\n".join([text(HEADINGS), "  ".join("-" * width for width in widths), *map(text, rows)])
 
 
-def crosscheck_line(result):
-    if not result.has("/crosscheck/fcl/frame"):
-        return "FCL: not asked."
-    separated = result.read("/crosscheck/fcl/separated").astype(bool)
-    agrees = result.read("/crosscheck/fcl/agrees").astype(bool)
-    difference = result.read("/crosscheck/fcl/relative_difference")[separated]
+def crosscheck_lines(result):
+    """A line for all methods, or one for each that has poses or a profile of its own."""
+    groups = {}
+    for method in result.methods.values():
+        group = method.at_its_frames("crosscheck/fcl")
+        if result.has(f"{group}/frame"):
+            groups.setdefault(group, "" if group == "/crosscheck/fcl" else f", frames of {method.label}")
+    return [crosscheck_line(result, *of) for of in groups.items()] or ["FCL: not asked."]
+
+
+def crosscheck_line(result, group, whose):
+    separated = result.read(f"{group}/separated").astype(bool)
+    agrees = result.read(f"{group}/agrees").astype(bool)
+    difference = result.read(f"{group}/relative_difference")[separated]
     difference = difference[np.isfinite(difference)]
     worst = f"{difference.max():.1e}" if difference.size else NOT_MEASURED
     disagreements = int(np.count_nonzero(~agrees))
-    text = (f"FCL: exact minimum distance compared in {agrees.size} frames ({np.count_nonzero(separated)} separated), "
+    text = (f"FCL{whose}: exact minimum distance compared in {agrees.size} frames ({np.count_nonzero(separated)} separated), "
             f"{disagreements} disagree, worst relative difference {worst}.")
-    who = result.texts("/crosscheck/fcl/exceptions/who") if result.has("/crosscheck/fcl/exceptions/who") else []
+    who = result.texts(f"{group}/exceptions/who") if result.has(f"{group}/exceptions/who") else []
     methods = [f"{label} in {who.count(label)}" for label in result.methods if label in who]
     return text + (f" Fresh searches off by more than the tolerance: {', '.join(methods)} frames." if methods else "")
 
@@ -111,7 +123,7 @@ def describe(result):
                  + (f"errors against exhaustive truth in {truth.frames.size} frames{true_jumps(result)}"
                     if truth else "NO TRUTH PROBE: the times stand without an error")
                  + f"; F_max {maximum_forces(result)} N a contact.")
-    lines += ["", table([row(method) for method in result.methods.values()] + truth_rows(result)), "", crosscheck_line(result)]
+    lines += ["", table([row(method) for method in result.methods.values()] + truth_rows(result)), "", *crosscheck_lines(result)]
     if result.has("/scene/warnings"):
         lines += [f"Note: {warning}" for warning in result.texts("/scene/warnings")]
     return "\n".join(lines)

@@ -22,7 +22,7 @@ import markupsafe  # noqa: E402
 
 from answer import answer  # noqa: E402
 from claims_section import claims_of, evidence  # noqa: E402
-from lmdbench_results import run_script, truth_of  # noqa: E402
+from lmdbench_results import ResultError, run_script, truth_of  # noqa: E402
 from page_data import page_colours, panels_of  # noqa: E402
 from page_figures import figures  # noqa: E402
 from paper_figures import paper_figures  # noqa: E402
@@ -189,6 +189,16 @@ def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
         data=raw(in_script(json.dumps(data, separators=(",", ":"), allow_nan=False))))
 
 
+def refuse_foreign_page(file):
+    """Only an earlier page of ours is replaced."""
+    if not os.path.exists(file) or os.path.getsize(file) == 0:
+        return
+    with open(file, "rb") as stream:
+        start = stream.read(1000)
+    if b'content="lmdbench report"' not in start and b"<title>lmdbench" not in start:
+        raise ResultError(f"{file}: is no page of lmdbench, which would replace it (remedy: choose another folder with --out)")
+
+
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", nargs="+", metavar="RESULT.h5",
@@ -205,6 +215,7 @@ def main(argv):
     folders = [os.path.join(arguments.scenes, str(i)) if arguments.scenes else None for i, _ in runs]
     scenes = [scene(result, folder) for result, folder in zip(results, folders)]
     os.makedirs(arguments.out, exist_ok=True)
+    refuse_foreign_page(os.path.join(arguments.out, "index.html"))
     paper = paper_figures(arguments.paper) if arguments.paper else []
     text = page(results, sweeps, scenes, arguments.study, arguments.paper is not None, paper, arguments.out)
     print(write_text(text, arguments.out, "index.html"))

@@ -37,8 +37,10 @@ class PreparedMesh {
   /// @throws InputError for a missing file or one without a mesh, UsageError for a bad tolerance
   explicit PreparedMesh(const std::filesystem::path& file, const std::string& planar_tolerance = "auto");
 
-  /// Takes a mesh from memory as it is: indices of features count its vertices and triangles.
-  /// Corners that are to be one vertex must be one. Planes are put back as above.
+  /// Takes a mesh from memory: indices of features count its vertices and triangles. Corners that
+  /// are to be one vertex must be one. Planes are put back as above. A triangle without area that
+  /// closes a T junction is flipped with the one beside it, and both keep their numbers: `mesh()`
+  /// has their corners, `findings()` how many there were.
   /// @param name of the mesh, for messages
   /// @throws InputError naming the vertex or triangle: no triangle, an index out of range, a
   ///         coordinate that is not finite or too large, more triangles than the limits allow
@@ -50,12 +52,14 @@ class PreparedMesh {
   /// Corners (v, w), v < w, of the mesh's edges, in the order that a FeatureId of kind EDGE counts.
   std::vector<std::array<std::int32_t, 2>> edges() const;
 
-  /// What weakens its LMDs: open borders, triangles without area, and the like; one clause each.
+  /// What weakens its LMDs: open borders, triangles without area, and the like, and how many were
+  /// flipped; one clause each.
   std::vector<std::string> findings() const;
 
   const std::shared_ptr<const Body>& body() const { return body_; }
 
  private:
+  std::int64_t flipped_ = 0;  ///< Before `body_`, which is made with it.
   std::shared_ptr<const Body> body_;
 };
 

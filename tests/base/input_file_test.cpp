@@ -30,6 +30,19 @@ TEST(InputFile, GivesTheBytesAndTheirHash) {
   EXPECT_EQ(read_input_file(folder / "link", {.what = "mesh"}).bytes, bytes);
 }
 
+/// `..` beyond a link leads elsewhere than its name says.
+TEST(InputFile, NamesAreShortenedToNamesOfTheSameFile) {
+  const ScratchDirectory folder;
+  const std::filesystem::path there = folder.write("elsewhere/mesh.off", "OFF\n");
+  std::filesystem::create_directories(folder / "elsewhere" / "deep");
+  std::filesystem::create_directories(folder / "here");
+  std::filesystem::create_directory_symlink(folder / "elsewhere" / "deep", folder / "here" / "link");
+  EXPECT_EQ(shortened(folder / "elsewhere" / "deep" / ".." / "mesh.off"), there);
+  const std::filesystem::path linked = folder / "here" / "link" / ".." / "mesh.off";
+  EXPECT_EQ(shortened(linked), linked);
+  EXPECT_EQ(shortened(folder / "a" / ".." / "none.off"), folder / "none.off");
+}
+
 TEST(InputFile, RefusesWhatIsNoRegularFileWithoutWaiting) {
   const ScratchDirectory folder;
   ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);

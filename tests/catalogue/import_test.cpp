@@ -173,6 +173,25 @@ TEST(ImportTest, CutsPolygonsInPlaceAndSkipsLines) {
   EXPECT_EQ(mesh.vertices.size(), 4u) << "the line's end is not on the surface";
 }
 
+TEST(ImportTest, CommentsOfAnObjMayStandBehindData) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh = import_mesh(
+      folder.write("c.obj", "v 0 0 0 # 4\nv 1 0 0 # five\nv 0 1 0\no part # \\\nf 1 2 3 # 4\nf 1 3 2# x\n"));
+  EXPECT_THAT(mesh.triangles, ElementsAre(Corners{0, 1, 2}, Corners{0, 2, 1}));
+}
+
+TEST(ImportTest, StlTextEndsWithItsLastLine) {
+  const ScratchDirectory folder;
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  EXPECT_EQ(import_mesh(folder.write("a.stl", "solid a\n" + facet + "endsolid a\n")).triangles.size(), 1u);
+  EXPECT_EQ(import_mesh(folder.write("b.stl", "solid\n" + facet + facet + "endsolid")).triangles.size(), 2u);
+  // Its header may begin as text does.
+  std::string binary = to_binary_stl(single_precision_blob());
+  binary.replace(0, 5, "solid");
+  EXPECT_GT(import_mesh(folder.write("c.stl", binary)).triangles.size(), 100u);
+}
+
 TEST(ImportTest, KeepsTrianglesWithoutArea) {
   const ScratchDirectory folder;
   const TriangleMesh mesh = import_mesh(
@@ -219,6 +238,24 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenMesh{"obj_five", "a.obj", "v 0 0 0\nv 1 0 0 0 0\nv 0 1 0\nf 1 2 3\n", "line 2: a vertex of 5"},
         BrokenMesh{"obj_corner", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/x y/2\n",
                    "line 4: a vertex index 'y' is not a number"},
+        BrokenMesh{
+            "stl_text_cut", "a.stl",
+            "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+            "endfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
+            "ends without 'endsolid'"},
+        BrokenMesh{"stl_binary_cut", "a.stl",
+                   std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(70, ' '), "2 triangles"},
+        BrokenMesh{"stl_binary_cut_of_solids", "a.stl",
+                   "solid" + std::string(75, ' ') + std::string("\2\0\0\0", 4) + std::string(70, '\1'),
+                   "2 triangles"},
+        BrokenMesh{"gltf_with_a_buffer_beside", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "a.bin", "byteLength": 84}],
+                       "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+                       "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                                     {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+                       "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+                       "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})",
+                   "export as .glb"},
         BrokenMesh{"ply_index", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "names vertex 5"},
         BrokenMesh{"ply_nan", "a.ply", PLY_HEADER + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "vertex 1"},
         BrokenMesh{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "1 of 4 faces"},

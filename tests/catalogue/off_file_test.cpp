@@ -82,6 +82,24 @@ TEST(OffFileTest, ReadsVariantsThatHaveMoreColumnsAndNoOthers) {
               HasSubstr("'4OFF'"));
 }
 
+/// A U, begun at a corner from which a fan would cover its gap.
+TEST(OffFileTest, CutsPolygonsFromACornerThatSeesThemWhole) {
+  const std::string arrow = "0 0 0\n4 0 0\n4 4 0\n2 1 0\n";  // A dart whose third corner is inside.
+  const std::vector<std::string> faces{"4 0 1 2 3\n", "4 1 2 3 0\n", "4 2 3 0 1\n", "4 3 0 1 2\n"};
+  for (const std::string& face : faces) {
+    const TriangleMesh mesh = parse_off("OFF\n4 1 0\n" + arrow + face, "dart.off");
+    ASSERT_EQ(mesh.triangles.size(), 2u);
+    double area = 0.0;
+    for (std::int32_t t = 0; t < 2; ++t) {
+      const Triangle c = mesh.triangle(t);
+      const double twice = (c[1] - c[0]).cross(c[2] - c[0]).z();
+      EXPECT_GT(twice, 0.0) << face;
+      area += 0.5 * twice;
+    }
+    EXPECT_DOUBLE_EQ(area, 6.0) << face;
+  }
+}
+
 struct BrokenOff {
   std::string name, content, place, problem;
 };
@@ -110,6 +128,9 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenOff{"index_negative", THREE + "3 0 1 -2\n", "line 6", "face 0 names vertex -2"},
         BrokenOff{"index_missing", THREE + "3 0 1\n", "line 6", "missing"},
         BrokenOff{"index_fraction", THREE + "3 0 1 1.5\n", "line 6", "'1.5' is not a number"},
+        BrokenOff{"no_fan",
+                  "OFF\n8 1 0\n0 0 0\n3 0 0\n3 3 0\n2 3 0\n2 1 0\n1 1 0\n1 3 0\n0 3 0\n8 0 1 2 3 4 5 6 7\n",
+                  "line 11", "no fan of triangles"},
         BrokenOff{"no_corners", THREE + "0\n", "line 6", "has 0 corners"},
         BrokenOff{"cut_in_vertices", "OFF\n5 1 0\n0 0 0\n1 0 0\n", "line 4", "after 2 of 5 vertices"},
         BrokenOff{"cut_in_faces", "OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "line 6",

@@ -119,6 +119,16 @@ TEST_F(BadInput, StandardOutputIsNoPlaceForFiles) {
   }
 }
 
+TEST_F(BadInput, RecordedPathsReplaceNothingButTheirOwn) {
+  const std::string record = "record '" LMDBENCH_SOURCE_DIR "/experiments/wall.json' --set /frames=30 --out ";
+  const std::string notes = scratch_.write("notes.tum", "0 0 0 0 0 0 0 1\n");
+  const Outcome refused = lmdbench(record + notes, scratch_.path());
+  EXPECT_EQ(refused.code, USAGE);
+  EXPECT_THAT(refused.err, HasSubstr("notes.tum"));
+  for (int times = 0; times < 2; ++times)
+    EXPECT_EQ(lmdbench(record + "own.tum", scratch_.path()).code, 0) << times;
+}
+
 TEST_F(BadInput, MisspeltCommandsAndOptionsAreNamedWithTheNearest) {
   struct Case {
     const char* line;

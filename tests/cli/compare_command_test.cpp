@@ -192,6 +192,24 @@ TEST_F(CompareCommand, OtherFramesAndSweepsAreRefusedInOneLine) {
     EXPECT_EQ(sweep.code, 2) << files;
     EXPECT_THAT(sweep.err, HasSubstr("a sweep of lmdbench work-precision")) << files;
   }
+  const Outcome drawn = lmdbench("export sweep.h5 --out drawn", scratch_->path());
+  EXPECT_EQ(drawn.code, 2);
+  EXPECT_THAT(drawn.err, HasSubstr("a sweep of lmdbench work-precision"));
+}
+
+TEST_F(CompareCommand, ReportsReplaceNothingButTheirOwn) {
+  std::ofstream(*scratch_ / "notes.txt") << "mine";
+  for (const std::string option : {"--junit", "--benchmark", "--benchmark-base"}) {
+    for (const std::string file : {"notes.txt", "a.h5"}) {
+      const Outcome outcome = compare("a.h5 b.h5 " + option + " " + file);
+      EXPECT_EQ(outcome.code, 2) << option << " " << file;
+      EXPECT_THAT(outcome.err, HasSubstr(file)) << option;
+    }
+    for (int times = 0; times < 2; ++times)
+      EXPECT_THAT(compare("a.h5 b.h5 " + option + " own" + option).code, AnyOf(0, 4)) << option << times;
+  }
+  EXPECT_EQ(std::filesystem::file_size(*scratch_ / "notes.txt"), 4U);
+  EXPECT_THAT(compare("a.h5 b.h5").code, AnyOf(0, 4)) << "both are results still";
 }
 
 TEST_F(CompareCommand, FalseAlarmsShareTheProbabilityGiven) {

@@ -214,8 +214,10 @@ TEST_F(HostileInput, CoordinatesWhoseSquaresOverflowOrVanish) {
     return "OFF\n4 4 0\n0 0 0\n" + a + " 0 0\n0 " + a + " 0\n0 0 " + a +
            "\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
   };
-  EXPECT_THAT(info("huge.off", tetrahedron("1e308")), HasSubstr("overflow"));
-  EXPECT_THAT(info("tiny.off", tetrahedron("1e-310")), HasSubstr("vanish"));
+  for (const char* size : {"1e308", "1.1e18"})
+    EXPECT_THAT(info("huge.off", tetrahedron(size)), HasSubstr("overflow")) << size;
+  for (const char* size : {"1e-310", "5e-16"})
+    EXPECT_THAT(info("tiny.off", tetrahedron(size)), HasSubstr("vanish")) << size;
   const std::string pose = write("huge.tum", "0 1e308 0 0 0 0 0 1\n");
   EXPECT_THAT(refusal("query --moving sphere --fixed sphere --cutoff 0.1 --poses " + pose, INPUT_DATA),
               HasSubstr("line 1"));

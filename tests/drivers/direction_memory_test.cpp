@@ -73,6 +73,18 @@ TEST(DirectionMemory, OtherBodiesLendNothing) {
   EXPECT_TRUE(next[0].direction.hasNaN());
 }
 
+TEST(DirectionMemory, WhatRestsInTouchHasADirectionOfItsOwn) {
+  DirectionMemory memory(CUTOFF);
+  LmdSet rest{separated(1, Vec3::Zero(), Vec3::UnitY())};
+  rest[0].distance = 0.0;
+  EXPECT_EQ(memory.complete(rest), 0);
+  EXPECT_EQ(rest[0].direction, Vec3(Vec3::UnitY()));
+  // A tracking method keeps the direction of a pair that intersects since: it is an older one.
+  LmdSet kept{touching(1, Vec3::Zero())};
+  kept[0].direction = Vec3::UnitZ();
+  EXPECT_EQ(memory.complete(kept), 1);
+}
+
 TEST(DirectionMemory, StartInContactHasNoDirection) {
   DirectionMemory memory(CUTOFF);
   LmdSet start{touching(1, Vec3::Zero())};

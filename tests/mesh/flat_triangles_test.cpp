@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace lmdbench {
@@ -58,6 +59,27 @@ TEST(FlatTriangles, BehindOneAnotherAreFlipped) {
   mesh.triangles = {{6, 7, 1}, {0, 1, 3}, {1, 2, 3}, {1, 4, 5}, {1, 7, 2}, {1, 5, 6}, {6, 5, 7}, {7, 5, 2}};
   EXPECT_EQ(flip_flat_triangles(mesh), 2);
   expect_same_square(mesh);
+}
+
+TEST(FlatTriangles, OfAHeightAreFlippedToo) {
+  for (const double off : {1e-8, -1e-8}) {
+    TriangleMesh mesh = junction({0.3, 0.6});
+    mesh.vertices[6].x() = off;
+    TriangleMesh low = mesh;
+    EXPECT_EQ(flip_flat_triangles(mesh), 0) << "both are higher than nothing";
+    EXPECT_EQ(flip_flat_triangles(low, 1e-7), 2);
+  }
+}
+
+/// Each waits for the next one: in the worst order all are asked again, each once.
+TEST(FlatTriangles, OfALongFanAreFlipped) {
+  std::vector<double> places;
+  for (int i = 1; i < 500; ++i) places.push_back(i / 500.0);
+  for (const bool reversed : {false, true}) {
+    TriangleMesh mesh = junction(places);
+    if (reversed) std::ranges::reverse(mesh.triangles);
+    EXPECT_EQ(flip_flat_triangles(mesh), 499);
+  }
 }
 
 TEST(FlatTriangles, AreLeftWhereAFlipWouldChangeTheSurface) {

@@ -9,7 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -66,6 +69,54 @@ TEST(OrientOutward, CavitiesFaceTheirInside) {
     const double shell = *check_mesh(build_surface(make_sphere(1, 2))).volume;
     EXPECT_NEAR(*check_mesh(build_surface(mesh)).volume, shell * (27.0 - 8.0 + 1.0), 1e-9);
   }
+}
+
+/// However the corners are numbered: the first may lie on the other piece.
+TEST(OrientOutward, PiecesThatTouchAreEnclosedOnlyIfTheyAreInside) {
+  const TriangleMesh box = make_box({1, 1, 1}), nook = make_l_block(2);
+  TriangleMesh small = make_box({0.5, 0.5, 0.5});
+  const struct {
+    TriangleMesh sound;
+    const char* what;
+  } scenes[] = {
+      {merged(translated(box, {-0.5, 0, 0}), translated(box, {0.5, 0, 0})), "face on face"},
+      {merged(translated(box, {-0.5, 0.3, 0}), translated(small, {0.25, 0, 0})), "a small one on a face"},
+      {merged(nook, translated(make_box({0.5, 0.5, 0.5}), {0.25, 1, 0.25})), "in the nook of an L"},
+      {merged(box, inside_out(translated(small, {0.25, 0, 0}))), "a cavity up to a face"},
+      {merged(box, inside_out(translated(small, {0.25, 0.25, 0.25}))), "a cavity up to a corner"}};
+  for (const auto& [sound, what] : scenes) {
+    for (std::size_t first = 0; first < sound.triangles.size(); ++first) {
+      TriangleMesh mesh = sound;
+      std::ranges::rotate(mesh.triangles, mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first));
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        for (auto& corners : mesh.triangles) std::ranges::rotate(corners, corners.begin() + 1);
+        EXPECT_EQ(orient_outward(mesh).turned_triangles, 0) << what << ", " << first << ", " << corner;
+      }
+    }
+  }
+}
+
+/// Welded along an edge, where four triangles meet: either one is closed.
+TEST(OrientOutward, PiecesThatShareAnEdgeAreClosed) {
+  TriangleMesh mesh = translated(make_box({1, 1, 1}), {-0.5, 0, -0.5});
+  const TriangleMesh other = translated(make_box({1, 1, 1}), {0.5, 0, 0.5});
+  std::vector<int> number;
+  for (const Vec3& vertex : other.vertices) {
+    const auto found = std::ranges::find(mesh.vertices, vertex);
+    number.push_back(static_cast<int>(found - mesh.vertices.begin()));
+    if (found == mesh.vertices.end()) mesh.vertices.push_back(vertex);
+  }
+  EXPECT_EQ(mesh.vertices.size(), 14U);
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({number[static_cast<std::size_t>(a)], number[static_cast<std::size_t>(c)],
+                              number[static_cast<std::size_t>(b)]});
+  const OrientationReport report = orient_outward(mesh);
+  EXPECT_EQ(report.pieces, 2);
+  EXPECT_EQ(report.pieces_undecided, 0);
+  EXPECT_EQ(report.turned_triangles, 12);
+  // A cavity is decided for closed pieces alone: one within such a pair.
+  TriangleMesh hollow = merged(mesh, translated(make_box({0.2, 0.2, 0.2}), {0.5, 0, 0.5}));
+  EXPECT_EQ(orient_outward(hollow).turned_triangles, 12);
 }
 
 TEST(OrientOutward, ScansWithHolesAreTurned) {

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/contact_tolerance.h>
 #include <lmdbench/lmd/body_distance.h>
+#include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,6 +35,70 @@ int scene_count() {
 std::uint64_t first_seed() {
   const char* const wanted = std::getenv("LMDBENCH_CONVEX_SEED");
   return wanted != nullptr ? static_cast<std::uint64_t>(std::atoll(wanted)) : 0;
+}
+
+/// LMDs of both exact methods, which are alike.
+std::size_t lmds_at(const Scene& scene, const Pose& pose) {
+  LmdSet truth, found;
+  WorkCounters counters;
+  make_method("exhaustive", scene)->search(pose, truth, counters);
+  make_method("certified", scene)->search(pose, found, counters);
+  EXPECT_EQ(truth.size(), found.size());
+  return truth.size();
+}
+
+/// A square with two sides: normals of its edges and corners cancel, but for rounding.
+TEST(ConvexBodies, SheetsWithTwoSidesHaveOneLmd) {
+  const TriangleMesh square{{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}},
+                            {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}}};
+  std::mt19937_64 random(31);
+  for (int k = 0; k < 40; ++k) {
+    const Pose whole = testing::pose_of_seed(random());
+    const Scene scene = testing::make_scene(make_box({0.1, 0.1, 0.1}), testing::placed(square, whole), 1.5);
+    for (int i = 0; i < 5; ++i) {
+      Pose beside = testing::pose_of_seed(random());
+      beside.translation = Vec3(0.8 + 0.2 * uniform(random), uniform(random) - 0.2, 0.1 * uniform(random));
+      EXPECT_EQ(lmds_at(scene, whole * beside), 1U) << k << ", " << i;
+    }
+  }
+}
+
+/// The diagonal of a face meets a corner of one side alone; a needle closes the gap.
+TriangleMesh with_needle(TriangleMesh mesh, double share) {
+  const auto corners = mesh.triangles.front();
+  const Surface surface = build_surface(mesh);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t x = corners[k], y = corners[(k + 1) % 3], z = corners[(k + 2) % 3];
+    const auto beside = surface.adjacency.edge_triangles[surface.adjacency.triangle_edges[0][k]];
+    const std::int32_t other = beside[0] == 0 ? beside[1] : beside[0];
+    if (surface.face_normals[0].dot(surface.face_normals[static_cast<std::size_t>(other)]) < 0.9) continue;
+    const auto m = static_cast<std::int32_t>(mesh.vertices.size());
+    mesh.vertices.push_back((1.0 - share) * mesh.vertices[static_cast<std::size_t>(x)] +
+                            share * mesh.vertices[static_cast<std::size_t>(y)]);
+    mesh.triangles[0] = {x, m, z};
+    mesh.triangles.push_back({m, y, z});
+    mesh.triangles.push_back({x, y, m});
+  }
+  return mesh;
+}
+
+/// Rounding turns some of the needles over.
+TEST(ConvexBodies, WithNeedlesOfSinglePrecisionHaveOneLmd) {
+  std::mt19937_64 random(32);
+  int flipped = 0;
+  for (int k = 0; k < 60; ++k) {
+    TriangleMesh box = with_needle(make_box({1, 1, 1}), 0.2 + 0.6 * uniform(random));
+    const Pose whole = testing::pose_of_seed(random());
+    TriangleMesh mesh = testing::rounded_to_floats(testing::placed(std::move(box), whole));
+    flipped += flatten(mesh).flipped_triangles == 1 ? 1 : 0;
+    const Scene scene = testing::make_scene(make_box({0.1, 0.1, 0.1}), std::move(mesh), 2.0);
+    for (int i = 0; i < 5; ++i) {
+      Pose beside = testing::pose_of_seed(random());
+      beside.translation = testing::random_direction(random) * (1.0 + 0.2 * uniform(random));
+      EXPECT_EQ(lmds_at(scene, whole * beside), 1U) << k << ", " << i;
+    }
+  }
+  EXPECT_GT(flipped, 50);
 }
 
 TEST(ConvexBodies, HaveOneLmdAtEveryPose) {

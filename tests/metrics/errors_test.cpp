@@ -30,7 +30,7 @@ SearchRecord search_of(std::int64_t frame, std::int64_t candidates, std::int64_t
 TEST(SummariseCounts, CountsLmdsOfTheFramesInContact) {
   MethodRecord record;
   for (const std::int64_t lmds : {9, 1, 0, 4, 2}) record.frames.push_back(frame_of(0.0, lmds));
-  record.frames[3].contact_without_direction = 2;
+  record.frames[3].minimum_distance = 0.0;
   MethodSummary summary;
   summarise_counts(summary, record, {{false, true, true, true, true}, RATE_HZ, MAXIMUM_FORCE});
   EXPECT_DOUBLE_EQ(summary.lmd_count_median, 1.5) << "an empty set in contact counts, free flight does not";
@@ -69,11 +69,11 @@ TEST(SummariseJumps, CountsLargeChangesPerSecondInContact) {
   EXPECT_TRUE(std::isnan(apart.jumps_per_second));
 }
 
-/// Five probed frames: free flight, contact, contact, touching, contact.
+/// Five probed frames: free flight, contact, at rest on each other, intersecting, contact.
 class SummariseErrorsTest : public ::testing::Test {
  protected:
   SummariseErrorsTest() {
-    const double distances[] = {0.0, 0.01, 0.02, 0.0, 0.03};
+    const double distances[] = {0.0, 0.01, 0.0, 0.0, 0.03};
     const std::size_t true_counts[] = {0, 1, 4, 1, 1}, reported[] = {1, 0, 4, 1, 2},
                       found[] = {0, 0, 3, 1, 1};
     const double errors[] = {50.0, 3.0, 0.0, 40.0, 4.0}, jumps[] = {60.0, 1.0, 2.0, 5.0, 3.0};
@@ -81,8 +81,13 @@ class SummariseErrorsTest : public ::testing::Test {
       TruthFrame frame;
       frame.frame = static_cast<std::int64_t>(2 * i);
       frame.lmds.resize(true_counts[i]);
-      for (Lmd& lmd : frame.lmds) lmd.distance = distances[i];
+      for (Lmd& lmd : frame.lmds) {
+        lmd.distance = distances[i];
+        if (i != 3) lmd.direction = Vec3::UnitZ();
+      }
+      // The frame that intersects has no true force to change from.
       frame.force_jump = {i == 2 || i == 0 ? 1.01 * JUMP : 0.99 * JUMP, 0.1 * static_cast<double>(i)};
+      if (i == 3) frame.force_jump = {UNSET, UNSET};
       truth_.push_back(frame);
       TruthComparison row;
       row.same = {true_counts[i], found[i], reported[i], found[i]};
@@ -108,24 +113,25 @@ TEST_F(SummariseErrorsTest, RecallAndPrecisionArePooled) {
   EXPECT_DOUBLE_EQ(summary_.precision, 5.0 / 8.0);
   EXPECT_DOUBLE_EQ(summary_.recall_adjacent, 1.0);
   EXPECT_DOUBLE_EQ(summary_.precision_adjacent, 6.0 / 8.0);
-  EXPECT_DOUBLE_EQ(summary_.frames_wrong, 4.0) << "all but the one in touch";
+  EXPECT_DOUBLE_EQ(summary_.frames_wrong, 4.0) << "all but the one that intersects";
 }
 
-TEST_F(SummariseErrorsTest, ForceErrorsAreInContactAndApart) {
+TEST_F(SummariseErrorsTest, ForceErrorsAreWhereTheTrueForceIsKnown) {
   EXPECT_DOUBLE_EQ(summary_.force_error_rms_n, std::sqrt((9.0 + 0.0 + 16.0) / 3.0));
   EXPECT_DOUBLE_EQ(summary_.force_error_median_n, 3.0);
   EXPECT_DOUBLE_EQ(summary_.force_error_maximum_n, 4.0);
   EXPECT_DOUBLE_EQ(summary_.force_error_p99_n, 3.98);
-  EXPECT_DOUBLE_EQ(summary_.force_angle_error_median_rad, 0.3) << "of 0.2 and 0.4; one is unset, one touches";
+  EXPECT_DOUBLE_EQ(summary_.force_angle_error_median_rad, 0.3)
+      << "of 0.2 and 0.4; one is unset, one intersects";
   EXPECT_DOUBLE_EQ(summary_.minimum_distance_error_maximum_m, 0.005);
 }
 
 TEST_F(SummariseErrorsTest, ChangesOfForceAreOverTheSameFramesInContactForBoth) {
-  EXPECT_DOUBLE_EQ(summary_.force_jump_maximum_n, 5.0);
-  EXPECT_DOUBLE_EQ(summary_.force_jump_p99_n, 3.0 + 0.97 * 2.0);
+  EXPECT_DOUBLE_EQ(summary_.force_jump_maximum_n, 3.0) << "5 is where no true change is known";
+  EXPECT_DOUBLE_EQ(summary_.force_jump_p99_n, 2.0 + 0.98 * 1.0);
   EXPECT_DOUBLE_EQ(summary_.true_force_jump_maximum_n, 1.01 * JUMP);
   EXPECT_EQ(summary_.true_jumps, 1.0);
-  EXPECT_EQ(summary_.true_jump_frames, 4.0);
+  EXPECT_EQ(summary_.true_jump_frames, 3.0);
   EXPECT_TRUE(std::isnan(summary_.true_jumps_per_second)) << "one event has no rate";
   MethodSummary exponential;
   summarise_errors(exponential, ForceLaw::EXPONENTIAL, truth_, comparisons_, frames_);

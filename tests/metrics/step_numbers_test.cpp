@@ -52,7 +52,8 @@ Judged blind_in(const PreparedRun& run, const std::vector<std::size_t>& blind,
     if (std::find(blind.begin(), blind.end(), frame) != blind.end()) set.clear();
     FrameRecord& row = record.frames.emplace_back();
     row.lmd_count = static_cast<std::int64_t>(set.size());
-    for (const Lmd& lmd : set) row.force -= 2.0 * (1.0 - lmd.distance / CUTOFF) * lmd.direction;
+    for (const Lmd& lmd : set)
+      if (!lmd.intersecting) row.force -= 2.0 * (1.0 - lmd.distance / CUTOFF) * lmd.direction;
     record.lmds[static_cast<std::int64_t>(frame)] = set;
   }
   const std::vector<TruthFrame> frames = truth_frames(judged.truth, run, 0);
@@ -128,10 +129,23 @@ TEST(StepNumbers, JumpsAreThoseOfEveryStepAndTheRestIsInContact) {
   const PreparedRun run = approach({0.01, 0.0105, 0.011, 0.0115, 0.012, 0.0125});
   const StepNumbers numbers = blind_in(run, {2}, {true, false, false, true, true, true}).numbers;
   EXPECT_EQ(numbers.jumps, 2.0) << "as summarise_jumps counts them";
-  EXPECT_EQ(numbers.switches, 0.0);
+  EXPECT_EQ(numbers.switches, 1.0) << "the step into contact; from 1 to 2 nothing is in contact";
+  EXPECT_EQ(numbers.births, 1.0);
+  EXPECT_EQ(numbers.deaths, 0.0);
   EXPECT_EQ(blind_in(run, {5}, std::vector<bool>(6, true)).numbers.jumps, 1.0) << "to the last frame";
   EXPECT_EQ(numbers.frames_empty, 0.0);
   EXPECT_NEAR(numbers.seconds_in_contact, 0.003, 1e-12);
+}
+
+/// Triangles that intersect have no direction: no change from there or to there is the true one.
+TEST(StepNumbers, StepsToFramesThatIntersectAreNotJudged) {
+  const PreparedRun run = approach({0.01, 0.0105, -0.01, 0.01, 0.0105, 0.011});
+  const StepNumbers numbers = blind_in(run, {}, std::vector<bool>(6, true)).numbers;
+  EXPECT_EQ(numbers.jumps, 2.0);
+  EXPECT_EQ(numbers.true_jumps + numbers.false_jumps + numbers.missed_jumps, 0.0);
+  EXPECT_EQ(numbers.switches, 2.0);
+  EXPECT_EQ(numbers.true_switches, 0.0);
+  EXPECT_NEAR(numbers.true_force_mean_n, 2.0 * (1.0 - 0.01025 / CUTOFF), 1e-6);
 }
 
 TEST(StepNumbers, HaveNamesOfTheirOwn) {

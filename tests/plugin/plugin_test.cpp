@@ -12,14 +12,19 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <support/message_of.h>
 #include <support/same_lmds.h>
 #include <support/scenes.h>
+#include <support/scratch_directory.h>
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -53,6 +58,35 @@ TEST(Plugin, IsDescribedAsItSays) {
   EXPECT_FALSE(good.tracks_locally);
   EXPECT_EQ(good.counters.size(), MethodDescription::MARKS);
   EXPECT_EQ(good.plugin, PLUGIN_FOLDER "/good.so");
+}
+
+/// A bare name is a file of the working folder, not a library of the system.
+TEST(Plugin, MayBeNamedFromItsFolder) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(PLUGIN_FOLDER);
+  EXPECT_EQ(plugin_methods("good.so", PluginTrust::NONE).front().name, "good");
+  std::filesystem::current_path(before);
+}
+
+TEST(Plugin, OptionsThatAreNoSchemaAreTheFilesFault) {
+  EXPECT_THAT(message_of<InputError>([] { only_method("bad_schema", PluginTrust::NONE); }),
+              ::testing::HasSubstr("bad_schema.so"));
+}
+
+TEST(Plugin, IsDestroyedInItsProcess) {
+  for (const PluginTrust trust : {PluginTrust::NONE, PluginTrust::TRUSTED}) {
+    const ScratchDirectory scratch;
+    const std::filesystem::path file = scratch / "goodbye";
+    ::setenv("LMDBENCH_GOODBYE", file.c_str(), 1);
+    {
+      const MethodDescription method = only_method("says_goodbye", trust);
+      const auto made = method.make(two_spheres(), nlohmann::json::object());
+      EXPECT_EQ(lost(*made, Pose{Vec3(0.0, 0.0, 3.0)}), 0U);
+      EXPECT_FALSE(std::filesystem::exists(file));
+    }
+    EXPECT_TRUE(std::filesystem::exists(file)) << (trust == PluginTrust::NONE ? "child" : "trusted");
+  }
+  ::unsetenv("LMDBENCH_GOODBYE");
 }
 
 /// A plugin gives the same contacts in a child process and in this one.

@@ -95,6 +95,13 @@ TEST(SceneLook, APathInsideTheMeshIsNoticed) {
                           HasSubstr("never comes within the cutoff")));
 }
 
+/// Cubes of 0.1 / sqrt(3) m: the moving one lies on the fixed one, corner on face.
+TEST(SceneLook, WhatRestsOnAMeshIsNotInside) {
+  const double side = 0.1 / std::sqrt(3.0);
+  const std::string pose = fmt::format("0.013 0.017 {:.17g} 0 0 0 1", side);
+  EXPECT_THAT(warnings(look("0 " + pose + "\n0.1 " + pose + "\n")), IsEmpty());
+}
+
 TEST(SceneLook, GapsOfARecordingAreCounted) {
   std::string poses;
   for (int i = 0; i < 20; ++i) poses += fmt::format("{} 0 0 0.06 0 0 0 1\n", 0.01 * i);

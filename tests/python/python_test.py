@@ -164,6 +164,12 @@ class Arrays(Files):
         self.assertTrue((mesh.edges[:, 0] < mesh.edges[:, 1]).all())
         self.assertEqual(mesh.findings, [])
         self.assertNotEqual(lmdbench.Mesh(CORNERS, SIDES[:-1]).findings, [])
+        # A triangle without area that closes a T junction is flipped with the one beside it.
+        middle = np.vstack([CORNERS, CORNERS[SIDES[0, :2]].mean(axis=0)])
+        a, b, c = SIDES[0]
+        junction = lmdbench.Mesh(middle, np.vstack([[[a, 8, c]], SIDES[1:], [[8, b, c], [a, b, 8]]]))
+        self.assertEqual(junction.triangles.shape, (14, 3))
+        self.assertIn("1 flat triangle", " ".join(junction.findings))
         view = mesh.vertices
         del mesh
         np.testing.assert_array_equal(view, vertices)
@@ -224,6 +230,8 @@ class ForcesAndTruth(unittest.TestCase):
         for wrong in ({"law": "cubic"}, {"saturation_distance": 0.06}, {"reference": np.zeros((2, 3))}):
             with self.assertRaises(lmdbench.UsageError):
                 lmdbench.forces(sets, 0.05, 3.0, **wrong)
+        with self.assertRaisesRegex(lmdbench.UsageError, "above that of the search"):
+            lmdbench.forces(sets, 0.06, 3.0)
 
     def test_truth_and_agreement(self):
         mesh = lmdbench.Mesh(*torus())
@@ -240,6 +248,12 @@ class ForcesAndTruth(unittest.TestCase):
             lmdbench.agreement(true_sets, lmdbench.query(mesh, mesh, poses[0], 0.2))
         with self.assertRaisesRegex(lmdbench.UsageError, "different meshes"):
             lmdbench.agreement(true_sets, lmdbench.query((CORNERS, SIDES), mesh, poses, 0.2))
+        with self.assertRaisesRegex(lmdbench.UsageError, "different poses"):
+            lmdbench.agreement(true_sets, lmdbench.query(mesh, mesh, poses[::-1], 0.2))
+        # As many triangles, but other vertices: the features of one are none of the other's.
+        box, loose = lmdbench.Mesh(CORNERS, SIDES), lmdbench.Mesh(CORNERS[SIDES].reshape(-1, 3), np.arange(SIDES.size).reshape(-1, 3))
+        with self.assertRaisesRegex(lmdbench.UsageError, "different meshes"):
+            lmdbench.agreement(lmdbench.truth(box, box, at(1.02), 0.05), lmdbench.truth(loose, box, at(1.02), 0.05), neighbouring=True)
 
 
 class Interpreter(unittest.TestCase):

@@ -95,6 +95,17 @@ TEST(RealtimeDriver, FourRolesHandOverAndSayHowOldTheirSetsAre) {
   EXPECT_EQ(record.repetitions[0].global_search.size(), record.searches.size());
 }
 
+/// Many ticks use the set of one update: its work is recorded with the first of them.
+TEST(RealtimeDriver, AnUpdateIsRecordedOnce) {
+  RealtimeSettings settings = quick();
+  settings.choice.tracking_rate_hz = 100.0;
+  const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(500), settings, {});
+  std::int64_t updates = 0;
+  for (const double time : run.records.at(0).repetitions.at(0).local_update) updates += time >= 0.0 ? 1 : 0;
+  EXPECT_GT(updates, 0);
+  EXPECT_LE(updates, run.clocks.at(0).roles.at(2).turns);
+}
+
 TEST(RealtimeDriver, PredictionLooksAheadByTheAge) {
   RealtimeSettings settings = quick();
   settings.predict = true;
@@ -203,12 +214,13 @@ TEST(Lengthen, GoesThereAndBackUntilTheTimeIsOver) {
   std::vector<Pose> poses(3);
   for (int i = 0; i < 3; ++i) poses[static_cast<std::size_t>(i)].translation.x() = i;
   std::vector<double> times(3);
-  lengthen(poses, times, 1000.0, 0.007);
+  lengthen(poses, times, 1000.0, 0.007, "e.json");
   std::vector<double> x;
   for (const Pose& pose : poses) x.push_back(pose.translation.x());
   EXPECT_THAT(x, ::testing::ElementsAre(0, 1, 2, 1, 0, 1, 2, 1));
   EXPECT_DOUBLE_EQ(times.back(), 0.007);
-  lengthen(poses, times, 1000.0, 0.002);
+  lengthen(poses, times, 1000.0, 0.002, "e.json");
+  EXPECT_THROW(lengthen(poses, times, 1000.0, 1e9, "e.json"), UsageError) << "the limit of frames";
   EXPECT_EQ(poses.size(), 3u) << "a run may be shorter than its path";
 }
 

@@ -186,6 +186,7 @@ TEST(ClosedLoop, RecordedPathReplaysTheForces) {
   EXPECT_EQ(thinned[85].time, all[595].time);
   EXPECT_EQ(thinned[85].pose.translation, all[595].pose.translation);
   EXPECT_THROW(record_path(wall({"/loop/kind=open"})), UsageError);
+  EXPECT_THROW(record_path(wall({"/driver/kind=realtime"})), UsageError) << "it has no clock to run by";
 }
 
 /// The hand follows a path in contact, but the device, which nothing presses, is pushed out.

@@ -255,6 +255,27 @@ TEST(Run, StartInPenetrationGoesOnAndTheResultSaysSo) {
   for (const double force : result.doubles("/methods/original/force")) EXPECT_TRUE(std::isfinite(force));
 }
 
+/// A realtime recorder that has no room loses lists; the frame's count says how long they were.
+TEST(Run, LostListsOfLmdsAreWrittenAsEmpty) {
+  const ScratchDirectory scratch;
+  run_to(scratch / "r.h5",
+         short_shapes({"/driver/kind=realtime", "/driver/realtime/floor_s=0.01",
+                       "/driver/realtime/lock_memory=false", "/driver/realtime/queue_ticks=16",
+                       "/driver/realtime/plant/recorder_stall_s=0.2", "/frames=600", "/record/lmds=true",
+                       R"(/methods=[{"name":"improved"}])", "/probes/truth/stride_frames=0"}));
+  const OpenResult result(scratch / "r.h5");
+  const std::vector<std::int64_t> offsets = result.integers("/methods/improved/lmds/frame_offset"),
+                                  counts = result.integers("/methods/improved/lmd_count");
+  ASSERT_EQ(offsets.size(), counts.size() + 1);
+  std::size_t lost = 0;
+  for (std::size_t frame = 0; frame < counts.size(); ++frame) {
+    const std::int64_t rows = offsets[frame + 1] - offsets[frame];
+    if (rows != counts[frame]) ++lost;
+    EXPECT_TRUE(rows == counts[frame] || rows == 0) << frame;
+  }
+  EXPECT_GT(lost, 0U);
+}
+
 TEST(Run, PolylinesAreRecordedWhereTheyAreAskedFor) {
   const ScratchDirectory scratch;
   std::ofstream(scratch / "path.tum") << "0 0.2 0 0 0 0 0 1\n0.1 0.06 0 0 0 0 0 1\n";

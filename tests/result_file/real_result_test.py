@@ -156,7 +156,7 @@ class RealResultTest(SharedScratch):
             for name in (share, share + "_adjacent"):
                 parts = method.read("truth/" + name)
                 same(name, np.nansum(parts * counts) / counts[~np.isnan(parts)].sum())
-        judged = contact[frames] & (result.read("/reference/minimum_distance") > 0)
+        judged = contact[frames] & (result.read("/reference/contact_without_direction") == 0)
         errors = method.read("truth/force_error")[judged]
         same("force_error_rms_n", np.sqrt(np.mean(errors**2)))
         same("force_error_median_n", np.median(errors))

@@ -6,6 +6,7 @@
 #include <lmdbench/shape/flatten.h>
 #include <lmdbench/shape/planar_faces.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <support/rounded.h>
 #include <support/sleeves.h>
@@ -39,6 +40,26 @@ TEST(PlanarTolerance, IsAFewUlpsOfAFloatAtTheExtent) {
   EXPECT_EQ(single_precision_tolerance(mesh), SINGLE_PRECISION_ULPS * 0x1p-23);  // 1.5 m
   mesh.vertices[0].x() += 1e-13;
   EXPECT_EQ(single_precision_tolerance(mesh), 0.0);
+}
+
+/// Writers differ: trimesh writes ten decimals.
+TEST(PlanarTolerance, TellsFloatsWrittenWithAsManyDigits) {
+  TriangleMesh floats = rounded_to_floats(turned(make_box(Vec3(3.0, 1.0, 1.0)), 3));
+  const TriangleMesh doubles = turned(make_box(Vec3(3.0, 1.0, 1.0)), 3);
+  for (const char* format : {"{:.8g}", "{:.10g}", "{:.17g}", "{:.9f}", "{:.10f}"}) {
+    for (const bool is_float : {true, false}) {
+      TriangleMesh read = is_float ? floats : doubles;
+      for (Vec3& p : read.vertices)
+        for (double& x : p) x = std::stod(fmt::format(fmt::runtime(format), x));
+      EXPECT_EQ(single_precision_tolerance(read) > 0.0, is_float) << format;
+    }
+  }
+}
+
+TEST(PlanarTolerance, IsNothingWhereItWouldBeMuchOfTheMesh) {
+  TriangleMesh mesh = make_box(Vec3(100.0, 100.0, 10.0));
+  EXPECT_GT(single_precision_tolerance(translated(mesh, Vec3(1e4, 0.0, 0.0))), 0.0);
+  EXPECT_EQ(single_precision_tolerance(translated(mesh, Vec3(4.5e6, 0.0, 2.1e6))), 0.0);
 }
 
 TEST(PlanarTolerance, IsReadFromText) {

@@ -75,6 +75,7 @@ def write_result(file, name="hard", frames=2000, repetitions=5, methods=("origin
             reference = h5.create_group("reference")
             dataset(reference, "frame", probed, "1", "probed frames")
             dataset(reference, "lmd_count", contacts[probed], "1", "true LMDs")
+            dataset(reference, "contact_without_direction", np.zeros(len(probed), dtype=np.int64), "1", "true LMDs without a direction")
             dataset(reference, "minimum_distance", np.where(contacts[probed] > 0, 1e-3, np.nan), "m", "least true distance")
             for law in ("linear", "exponential"):
                 dataset(reference, f"force_{law}", true_force[probed], "N", "true force")

@@ -237,13 +237,19 @@ class FigureTest(ScriptsTest):
         with self.assertRaisesRegex(ResultError, "5 columns are more than a page holds"):
             figure7.draw(*[exact] * 5)
 
-    def test_no_true_force_where_triangles_touch(self):
-        def touch(h5):
+    def test_no_true_force_where_triangles_intersect(self):
+        def intersect(h5):
             h5["reference/minimum_distance"][...] = 1e-3
-            h5["reference/minimum_distance"][3] = 0.0
+            h5["reference/minimum_distance"][3:5] = 0.0
+            h5["reference/contact_without_direction"][3] = 1
 
-        _, force = lmdbench_results.reference_force(Result(self.edited("touch.h5", touch)).method("improved"))
-        self.assertEqual(list(np.flatnonzero(np.isnan(force))), [3])
+        def of_before(h5):
+            intersect(h5)
+            del h5["reference/contact_without_direction"]
+
+        for change, unknown in ((intersect, [3]), (of_before, [3, 4])):
+            _, force = lmdbench_results.reference_force(Result(self.edited(f"{change.__name__}.h5", change)).method("improved"))
+            self.assertEqual(list(np.flatnonzero(np.isnan(force))), unknown)
 
     def test_truth_of_a_device_of_its_own_is_its_own(self):
         def close(h5):

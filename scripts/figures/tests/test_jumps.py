@@ -71,3 +71,8 @@ class Travel(unittest.TestCase):
         turned = [np.sin(half), 0.0, 0.0, np.cos(half)]
         way = jumps.travel(np.array([[0.0, 0, 0], [0.003, 0.004, 0]]), np.array([[0.0, 0, 0, 1], turned]), 2.0)
         self.assertAlmostEqual(way[0], 0.005 + 0.01 * 2.0)
+
+    def test_a_point_turns_with_the_mesh(self):
+        quarter = np.sqrt(0.5)
+        there = jumps.turned(np.array([1.0, 2.0, 3.0]), np.array([[0.0, 0, 0, 1], [0.0, 0, quarter, quarter]]))
+        np.testing.assert_allclose(there, [[1, 2, 3], [-2, 1, 3]], atol=1e-12)

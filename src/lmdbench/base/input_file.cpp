@@ -86,6 +86,14 @@ void refuse_unless_regular(const std::filesystem::path& file, const InputKind& k
   refuse.unless_regular(status);
 }
 
+std::filesystem::path shortened(const std::filesystem::path& file) {
+  std::filesystem::path normal = file.lexically_normal();
+  std::error_code none;
+  const bool differs =
+      std::filesystem::exists(file, none) && !std::filesystem::equivalent(file, normal, none);
+  return differs ? file : normal;
+}
+
 FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind) {
   const Refusal refuse{file, kind};
   // Checked before it is opened: opening alone can make a device act.

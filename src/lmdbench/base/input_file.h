@@ -31,6 +31,10 @@ struct FileContent {
 /// @throws InputError or UsageError: no such file, no regular file
 void refuse_unless_regular(const std::filesystem::path& file, const InputKind& kind);
 
+/// A name without `..` and `.` where that names the same file: beyond a symbolic link to a folder
+/// it may name another one, or none.
+std::filesystem::path shortened(const std::filesystem::path& file);
+
 /// Reads a regular file; follows symbolic links to one. Refuses directories, devices, FIFOs and
 /// sockets without waiting for them.
 /// @throws InputError (or UsageError: kind.code): missing, not regular, too large, unreadable

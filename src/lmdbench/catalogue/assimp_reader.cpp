@@ -29,6 +29,8 @@ namespace lmdbench {
 
 namespace {
 
+constexpr const char* GLTF_REMEDY =
+    "files beside a .gltf are not read: export as .glb, or with embedded buffers";
 constexpr const char* FORMAT_REMEDY = "check that it is a mesh file; convert it to OFF, PLY, OBJ or STL";
 constexpr const char* DAMAGED_REMEDY = "the file is damaged: get or export it again";
 
@@ -211,7 +213,8 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   // No post-processing yet: it aborts the program where a reader left faces without corners
   // (truncated files), and its clean-up steps would drop or reorder triangles.
   const aiScene* scene = importer.ReadFile(name, 0);
-  if (scene == nullptr) throw InputError(file, "", importer.GetErrorString(), FORMAT_REMEDY);
+  if (scene == nullptr)
+    throw InputError(file, "", importer.GetErrorString(), extension == "gltf" ? GLTF_REMEDY : FORMAT_REMEDY);
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);
   SceneMerger(*scene, file).check_indices();
   if (SceneMerger(*scene, file).has_polygons()) {

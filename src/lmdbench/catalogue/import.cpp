@@ -6,6 +6,7 @@
 #include <lmdbench/catalogue/mesh_limits.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/ply_check.h>
+#include <lmdbench/catalogue/stl_check.h>
 #include <lmdbench/mesh/placement.h>
 
 #include <fmt/format.h>
@@ -45,6 +46,7 @@ TriangleMesh read_format(const FileContent& content) {
     check_obj(text, file);
     return read_with_assimp(text, extension, file);
   }
+  if (extension == "stl") check_stl(content.bytes, file);
   return read_with_assimp(content.bytes, extension, file);
 }
 

@@ -3,9 +3,12 @@
 #include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/obj_file.h>
+#include <lmdbench/catalogue/polygon_fan.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace lmdbench {
@@ -37,21 +40,6 @@ const Vec3& read_corner(const LineReader& lines, std::string_view word, const st
   return positions[static_cast<std::size_t>(index)];
 }
 
-/// Whether every triangle of the fan round the first corner turns the same way as the polygon.
-bool is_convex(const std::vector<Vec3>& corners) {
-  Vec3 area = Vec3::Zero();
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-    area += (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec3& next = corners[(k + 1) % corners.size()];
-    const Vec3& after = corners[(k + 2) % corners.size()];
-    if ((next - corners[k]).cross(after - next).dot(area) < 0.0) return false;
-  }
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-    if ((corners[k] - corners[0]).cross(corners[k + 1] - corners[0]).dot(area) < 0.0) return false;
-  return true;
-}
-
 }  // namespace
 
 TriangleMesh parse_obj(std::string_view text, const std::string& file) {
@@ -75,7 +63,9 @@ TriangleMesh parse_obj(std::string_view text, const std::string& file) {
     corners.clear();
     while (!lines.at_line_end()) corners.push_back(read_corner(lines, lines.word(), positions));
     if (corners.size() < 3) lines.fail(fmt::format("a face of {} corners", corners.size()));
-    if (corners.size() > 3 && !is_convex(corners)) lines.fail("a polygon that is not convex", CONVERT);
+    const std::optional<std::size_t> first_corner = fan_corner(corners);
+    if (!first_corner) lines.fail("a polygon that no fan of triangles fills", CONVERT);
+    std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(*first_corner));
     // Every face has its own corners, as in assimp: import welds them in the order of use.
     const auto first = static_cast<std::int32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());

@@ -7,14 +7,17 @@
 #include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/ply_check.h>
+#include <lmdbench/catalogue/polygon_fan.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lmdbench {
 
@@ -38,6 +41,8 @@ void read_vertices(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
 
 void read_faces(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
   const auto vertex_count = static_cast<std::int64_t>(mesh.vertices.size());
+  std::vector<std::int32_t> corners;
+  std::vector<Vec3> places;
   for (std::int64_t f = 0; f < count; ++f) {
     if (!lines.next_line())
       lines.fail(fmt::format("the file ends after {} of {} faces", f, count), CUT_SHORT);
@@ -47,20 +52,27 @@ void read_faces(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
       lines.fail(fmt::format("face {} is a polygon of {} corners, above the limit of {}", f, corner_count,
                              limit_of(Limit::POLYGON_CORNERS)),
                  "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
-    std::array<std::int32_t, 3> fan{};
+    corners.clear();
+    places.clear();
     for (std::int64_t k = 0; k < corner_count; ++k) {
       const auto corner = lines.number<std::int64_t>("a vertex index");
       if (corner < 0 || corner >= vertex_count)
         lines.fail(fmt::format("face {} names vertex {}, but there are {} vertices", f, corner, vertex_count),
                    "vertices are counted from 0; correct the index");
-      fan[static_cast<std::size_t>(std::min<std::int64_t>(k, 2))] = static_cast<std::int32_t>(corner);
-      if (k < 2) continue;
-      mesh.triangles.push_back(fan);
-      if (static_cast<std::int64_t>(mesh.triangles.size()) > limit_of(Limit::TRIANGLES))
-        lines.fail(fmt::format("more triangles than the limit of {}", limit_of(Limit::TRIANGLES)),
-                   "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
-      fan[1] = fan[2];
+      corners.push_back(static_cast<std::int32_t>(corner));
+      places.push_back(mesh.vertices[static_cast<std::size_t>(corner)]);
     }
+    if (corner_count < 3) continue;
+    const std::optional<std::size_t> first = corner_count == 3 ? 0 : fan_corner(places);
+    if (!first)
+      lines.fail(fmt::format("face {} is a polygon that no fan of triangles fills", f),
+                 "cut it into triangles where it was made");
+    std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(*first));
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+      mesh.triangles.push_back({corners[0], corners[k], corners[k + 1]});
+    if (static_cast<std::int64_t>(mesh.triangles.size()) > limit_of(Limit::TRIANGLES))
+      lines.fail(fmt::format("more triangles than the limit of {}", limit_of(Limit::TRIANGLES)),
+                 "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
   }
 }
 

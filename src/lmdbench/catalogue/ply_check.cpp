@@ -354,6 +354,9 @@ std::string without_materials(std::string_view text) {
       if (rest.starts_with("mtllib") || rest.starts_with("usemtl"))
         std::fill(result.begin() + static_cast<std::ptrdiff_t>(word),
                   result.begin() + static_cast<std::ptrdiff_t>(end), '#');
+      else if (const std::size_t comment = result.find('#', word + 1); comment < end && result[word] != '#')
+        std::fill(result.begin() + static_cast<std::ptrdiff_t>(comment),
+                  result.begin() + static_cast<std::ptrdiff_t>(end), ' ');
     }
     begin = end + 1;
   }

@@ -34,7 +34,8 @@ std::string with_its_first_byte(std::string_view ply, const PlyContent& content)
 void check_obj(std::string_view text, const std::string& file);
 
 /// The text with lines about materials made comments: they are often lost, mean nothing to a
-/// surface, and assimp complains and splits triangles by them. All other bytes keep their places.
+/// surface, and assimp complains and splits triangles by them. Comments behind data, which assimp
+/// takes for data, become blanks. All other bytes keep their places.
 std::string without_materials(std::string_view text);
 
 /// The remedy for a mesh file whose length does not fit its header.

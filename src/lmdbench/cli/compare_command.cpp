@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/comparison/compare.h>
 #include <lmdbench/comparison/comparison_text.h>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,8 +45,24 @@ void sort_out_files(CompareArguments& arguments) {
                      "give BASE.h5 CANDIDATE.h5, or --base A.h5... --candidate B.h5...");
 }
 
+/// Before anything is compared: what is written replaces its own kind alone.
+void refuse_unsafe_outputs(const CompareArguments& arguments) {
+  std::vector<std::filesystem::path> inputs(arguments.base.begin(), arguments.base.end());
+  inputs.insert(inputs.end(), arguments.candidate.begin(), arguments.candidate.end());
+  const OutputKind junit{"JUnit report",
+                         [](const auto& file) { return file_begins_with(file, JUNIT_BEGINS); }};
+  const OutputKind benchmark{"Google Benchmark file",
+                             [](const auto& file) { return file_begins_with(file, BENCHMARK_BEGINS); }};
+  if (!arguments.junit.empty()) refuse_unsafe_output(arguments.junit, junit, inputs, "--junit");
+  if (!arguments.benchmark.empty())
+    refuse_unsafe_output(arguments.benchmark, benchmark, inputs, "--benchmark");
+  if (!arguments.benchmark_base.empty())
+    refuse_unsafe_output(arguments.benchmark_base, benchmark, inputs, "--benchmark-base");
+}
+
 int compare(CompareArguments& arguments) {
   sort_out_files(arguments);
+  refuse_unsafe_outputs(arguments);
   const Comparison comparison =
       compare_results({arguments.base.begin(), arguments.base.end()},
                       {arguments.candidate.begin(), arguments.candidate.end()}, arguments.options);

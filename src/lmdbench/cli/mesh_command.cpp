@@ -37,7 +37,7 @@ void print_info(const MeshArguments& arguments) {
       parse_planar_tolerance(arguments.planar_tolerance, "", "--planar-tolerance");
   for (const std::string& name : arguments.names) {
     ResolvedMesh resolved = resolve_mesh(name, arguments.folder);
-    const FlatteningReport flattening = flatten(resolved.mesh, tolerance);
+    const FlatteningReport flattening = flatten(resolved.mesh, tolerance, false);
     const SelfIntersections crossings = self_intersections(resolved.mesh);
     const ValidityReport report = check_mesh(build_surface(std::move(resolved.mesh)));
     if (arguments.json) {

@@ -51,9 +51,9 @@ std::shared_ptr<const Body> load(const std::string& name, const QueryOptions& op
   TriangleMesh mesh = resolve_mesh(name, options.folder).mesh;
   if (parse_orientation(options.orient, "", "--orient") == OrientationChoice::OUTWARD)
     spdlog::info("{}: {}", name, to_text(orient_outward(mesh)));
-  if (const std::int64_t flipped = flip_flat_triangles(mesh); flipped > 0)
-    spdlog::info("{}: {}", name, flipped_text(flipped));
   FlatteningReport flattening = flatten(mesh, tolerance);
+  if (flattening.flipped_triangles > 0)
+    spdlog::info("{}: {}", name, flipped_text(flattening.flipped_triangles));
   flattening.tolerance *= metres;
   flattening.largest_move *= metres;
   if (flattening.moved_vertices > 0) spdlog::info("{}: {}", name, to_text(flattening));

@@ -5,6 +5,7 @@
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/prepare/prepare.h>
 #include <lmdbench/run/record_path.h>
 
 #include <CLI/CLI.hpp>
@@ -12,8 +13,10 @@
 #include <spdlog/spdlog.h>
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace lmdbench {
 namespace {
@@ -24,9 +27,17 @@ struct RecordOptions {
   std::size_t every = 1;
 };
 
+/// Begins the first line of a recorded path.
+constexpr std::string_view RECORDED_PATH_MARK = "true path of the simulated device of experiment";
+
+bool is_recorded_path(const std::filesystem::path& file) {
+  return file_begins_with(file, fmt::format("# {}", RECORDED_PATH_MARK));
+}
+
 void record(const RecordOptions& options) {
-  refuse_standard_output(options.out, "path", "--out");
   const Experiment experiment = options.experiment.load();
+  refuse_unsafe_output(options.out, {.what = "recorded path", .is_ours = &is_recorded_path},
+                       input_files(experiment), "--out");
   ProgressBar bar(talk_welcome());
   const Path path = record_path(experiment, options.every,
                                 [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
@@ -35,7 +46,7 @@ void record(const RecordOptions& options) {
                                 });
   bar.wipe();
   write_tum(options.out, path,
-            fmt::format("true path of the simulated device of experiment '{}', method '{}'", experiment.name,
+            fmt::format("{} '{}', method '{}'", RECORDED_PATH_MARK, experiment.name,
                         experiment.methods.front().label));
   spdlog::info("wrote {} poses to {}", path.size(), options.out);
 }

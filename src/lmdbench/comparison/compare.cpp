@@ -21,14 +21,6 @@ namespace {
 
 using Files = std::vector<ResultReader>;
 
-/// A sweep has points, not methods with frames: for `lmdbench report`, scripts/figures/sweep.py.
-void refuse_sweep(const ResultReader& file) {
-  if (file.has("/sweep"))
-    throw UsageError(
-        file.file().string(), "/sweep", "a sweep of lmdbench work-precision, not the result of a run",
-        "give results of lmdbench run; lmdbench report and scripts/figures/sweep.py read sweeps");
-}
-
 /// Real-time runs differ in every frame, whatever the programs.
 void refuse_realtime(const ResultReader& file) {
   if (file.has("/realtime"))

@@ -153,11 +153,8 @@ std::string comparison_junit(const Comparison& comparison) {
       comparison.differences.empty() ? Verdict::SAME : Verdict::CHANGED, changes);
   for (const Timing& timing : comparison.timings)
     add(timing.method, timing.stage, timing.verdict, timing_text(timing));
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"lmdbench compare\" tests=\"{}\" "
-      "failures=\"{}\" "
-      "skipped=\"{}\" errors=\"0\">\n{}</testsuite>\n",
-      comparison.timings.size() + 1, failures, skipped, cases);
+  return fmt::format("{} tests=\"{}\" failures=\"{}\" skipped=\"{}\" errors=\"0\">\n{}</testsuite>\n",
+                     JUNIT_BEGINS, comparison.timings.size() + 1, failures, skipped, cases);
 }
 
 namespace {

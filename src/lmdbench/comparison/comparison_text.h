@@ -5,6 +5,7 @@
 #include <lmdbench/comparison/compare.h>
 
 #include <string>
+#include <string_view>
 
 namespace lmdbench {
 
@@ -24,6 +25,11 @@ std::string google_benchmark_json(const std::vector<StageTimes>& processes,
 /// JUnit XML for CI servers: a test case a method and stage and one for the exact part. Slower and
 /// changed are failures, unsure is skipped, each with its reasons.
 std::string comparison_junit(const Comparison& comparison);
+
+/// How both begin: what they may replace.
+inline constexpr std::string_view BENCHMARK_BEGINS = "{\n  \"context\": {\n    \"executable\": \"lmdbench\"";
+inline constexpr std::string_view JUNIT_BEGINS =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"lmdbench compare\"";
 
 /// For people, as plain text; the first line is the verdict.
 std::string comparison_text(const Comparison& comparison);

@@ -34,7 +34,8 @@ std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, 
   std::vector<Column<F>> columns{
       column<F>("force", "N", "rendered force on the moving mesh, world frame",
                 [](const F& f) { return f.force; }),
-      column<F>("force_clipped", "1", "1 where the device clipped the force",
+      column<F>("force_clipped", "1",
+                "1 where the device, or maximum_force_n under clip: maximum, clipped the force",
                 [](const F& f) { return f.force_clipped; }),
       column<F>("force_above_continuous", "1", "1 where the force exceeds what the device can hold",
                 [](const F& f) { return f.force_above_continuous; }),
@@ -60,7 +61,7 @@ std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, 
   columns.push_back(column<F>("effective_stiffness", "N/m", "slope of the force's length along the force",
                               [](const F& f) { return f.effective_stiffness; }));
   columns.push_back(column<F>("contact_without_direction", "1",
-                              "LMDs at distance 0, which keep their last direction",
+                              "LMDs of triangles that intersect, which keep their last direction",
                               [](const F& f) { return f.contact_without_direction; }));
   if (indices)
     columns.push_back(column<F>("lmds_without_index", "1",
@@ -95,9 +96,10 @@ std::vector<Column<LoopFrame>> loop_columns(bool turns) {
     return column<L>("energy_" + name, "J", long_name, [member](const L& l) { return l.energy.*member; });
   };
   std::vector<Column<L>> columns{
-      column<L>("position", "m", "true position of the device, world frame",
+      column<L>("position", "m",
+                "true position of the moving mesh's origin, which the device holds, world frame",
                 [](const L& l) { return l.position; }),
-      column<L>("velocity", "m/s", "velocity of the device, world frame",
+      column<L>("velocity", "m/s", "velocity of that origin, world frame",
                 [](const L& l) { return l.velocity; }),
       column<L>("held_force", "N", "force held until the next frame, delay included",
                 [](const L& l) { return l.held.force; }),

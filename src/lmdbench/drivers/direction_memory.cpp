@@ -13,8 +13,8 @@ std::int64_t DirectionMemory::complete(LmdSet& lmds) {
   const double limit = is_older_ ? cutoff_ : std::numeric_limits<double>::infinity();
   known_.clear();
   for (Lmd& lmd : lmds) {
-    // A method may have kept the direction; distance 0 tells that it is not this frame's.
-    if (!(lmd.distance > 0.0)) ++without_direction;
+    // Tracking keeps the direction of triangles that intersect since: it is not this frame's.
+    if (lmd.intersecting || lmd.direction.hasNaN()) ++without_direction;
     if (lmd.direction.hasNaN()) {
       double nearest_squared = limit * limit;
       for (const Lmd& earlier : last_) {

@@ -9,7 +9,7 @@
 
 namespace lmdbench {
 
-/// Decision E12, ours: triangles that intersect have no direction. An LMD at distance 0 keeps the
+/// Decision E12, ours: triangles that intersect have no direction. Their LMD keeps the
 /// last valid one: of the same feature pair a frame ago, else of the nearest LMD of that frame on
 /// the same fixed mesh, however far it is: faces at a small angle cross along a long line, and the
 /// contact's representative may be far from the first points. An older frame lends within the

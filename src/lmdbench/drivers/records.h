@@ -33,7 +33,7 @@ struct FrameRecord {
   double minimum_distance = UNSET;             ///< metres
   double lmd_age = UNSET;                      ///< Since the search of the set in use began [s].
   double effective_stiffness = 0.0;            ///< K_eff [N/m] before clipping.
-  std::int64_t contact_without_direction = 0;  ///< LMDs at distance 0 without own direction (E12).
+  std::int64_t contact_without_direction = 0;  ///< LMDs without a direction of their own (E12).
   std::int64_t lmds_without_index = 0;         ///< If the aggregation needs indices.
   WorkCounters counters;                       ///< Of the frame's local part.
 };

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/plain_name.h>
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/experiment/defaults.h>
 #include <lmdbench/experiment/probe.h>
@@ -13,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 namespace lmdbench {
@@ -27,11 +27,8 @@ constexpr double USUAL_FORCE = 1.0;
 
 /// A file's name as a valid name of an experiment.
 std::string name_from(const std::filesystem::path& file) {
-  std::string name = file.stem().string();
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-' && c != '.') c = '-';
-  const std::size_t first = name.find_first_not_of("_-.");
-  return first == std::string::npos ? "experiment" : name.substr(first);
+  const std::string name = plain_name(file.stem().string(), "_-.");
+  return name.empty() ? "experiment" : name;
 }
 
 void add_every_method(Json& document, std::vector<DefaultNote>& notes) {

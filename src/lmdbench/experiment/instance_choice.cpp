@@ -29,7 +29,7 @@ InstanceChoice read_instance_choice(const nlohmann::json& entry, const std::stri
   InstanceChoice choice;
   if (rule == "list") {
     needs("file", "name a file of poses, one a line: x y z qx qy qz qw");
-    choice.file = (file.parent_path() / entry["file"].get<std::string>()).lexically_normal();
+    choice.file = shortened(file.parent_path() / entry["file"].get<std::string>());
     return choice;
   }
   choice.rule.spacing = entry["spacing_diagonals"].get<double>();

@@ -118,10 +118,9 @@ Experiment from_json(Json document, const std::filesystem::path& path) {
   experiment.file = path;
   experiment.name = document["name"].get<std::string>();
   experiment.title = document["title"].get<std::string>();
-  experiment.mesh_folder =
-      document.contains("mesh_folder")
-          ? (path.parent_path() / document["mesh_folder"].get<std::string>()).lexically_normal()
-          : default_mesh_folder((path.parent_path() / ".." / "meshes").lexically_normal());
+  experiment.mesh_folder = document.contains("mesh_folder")
+                               ? shortened(path.parent_path() / document["mesh_folder"].get<std::string>())
+                               : default_mesh_folder(shortened(path.parent_path() / ".." / "meshes"));
   experiment.objects = read_objects(document, path);
   experiment.frame_rate_hz = document["frame_rate_hz"].get<double>();
   experiment.frames = optional_value<std::int64_t>(document, "frames");

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
 #include <lmdbench/experiment/mesh_deformation.h>
 
 #include <fmt/format.h>
@@ -32,9 +33,7 @@ MeshDeformation read_mesh_deformation(const nlohmann::json& entry, const std::st
   deformation.experiment = file;
   deformation.place = place;
   if (!entry.contains("generator")) {
-    const auto resolved = [&](const std::string& name) {
-      return (file.parent_path() / name).lexically_normal();
-    };
+    const auto resolved = [&](const std::string& name) { return shortened(file.parent_path() / name); };
     if (entry.contains("folder")) deformation.folder = resolved(entry["folder"].get<std::string>());
     if (entry.contains("files"))
       for (const nlohmann::json& name : entry["files"])

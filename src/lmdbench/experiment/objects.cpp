@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/motion/tum_file.h>
 
@@ -35,8 +36,7 @@ ObjectMotion path_motion(const Json& entry, const char* key, const std::string& 
   ObjectMotion motion;
   motion.kind = MotionKind::PATH;
   motion.path_place = place + "/" + key;
-  if (entry.contains(key))
-    motion.path_file = (file.parent_path() / entry[key].get<std::string>()).lexically_normal();
+  if (entry.contains(key)) motion.path_file = shortened(file.parent_path() / entry[key].get<std::string>());
   motion.interpolation = entry["interpolation"] == "linear" ? Interpolation::LINEAR : Interpolation::CUBIC;
   motion.gap_intervals = entry["gap_intervals"].get<double>();
   return motion;

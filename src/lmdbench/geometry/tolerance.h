@@ -21,12 +21,13 @@ namespace lmdbench {
 /// parallel changes a distance by less than 1e-14 of the coordinates.
 inline constexpr double COINCIDENCE_TOLERANCE = 16.0 * std::numeric_limits<double>::epsilon();
 
-/// Readers of files refuse larger coordinates: volumes, squared areas and the exact tests' products
-/// of up to seven lengths must stay within double precision. Single precision ends at 3.4e38.
-inline constexpr double LARGEST_COORDINATE = 1e40;
+/// Readers of files refuse larger coordinates: hierarchies square distances in single precision,
+/// which ends at 3.4e38 (the sum of two meshes' diagonals squared is 4.8e37 here).
+inline constexpr double LARGEST_COORDINATE = 1e18;
 
-/// Readers refuse meshes with a smaller diagonal of the bounding box: such products would vanish.
-inline constexpr double SMALLEST_DIAGONAL = 1e-40;
+/// Readers refuse meshes with a smaller diagonal of the bounding box: squares of their smallest
+/// parts would vanish there.
+inline constexpr double SMALLEST_DIAGONAL = 1e-15;
 
 /// Largest absolute coordinate; a coordinate that is not a number does not count, see all_finite.
 inline double largest_coordinate(std::span<const Vec3> points) {

@@ -25,9 +25,9 @@ namespace lmdbench {
 namespace {
 
 std::shared_ptr<const Body> prepare(TriangleMesh mesh, const std::string& planar_tolerance,
-                                    const std::string& name) {
-  flip_flat_triangles(mesh);
-  flatten(mesh, parse_planar_tolerance(planar_tolerance, name, "planar_tolerance"));
+                                    const std::string& name, std::int64_t& flipped) {
+  const PlanarTolerance tolerance = parse_planar_tolerance(planar_tolerance, name, "planar_tolerance");
+  flipped = flatten(mesh, tolerance).flipped_triangles;
   return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
 }
 
@@ -84,11 +84,11 @@ nlohmann::json options_of(const std::string& method, const std::string& text) {
 }  // namespace
 
 PreparedMesh::PreparedMesh(const std::filesystem::path& file, const std::string& planar_tolerance)
-    : body_(prepare(import_mesh(file), planar_tolerance, file.string())) {}
+    : body_(prepare(import_mesh(file), planar_tolerance, file.string(), flipped_)) {}
 
 PreparedMesh::PreparedMesh(TriangleMesh mesh, const std::string& planar_tolerance, const std::string& name) {
   check_mesh_in_memory(mesh, name);
-  body_ = prepare(std::move(mesh), planar_tolerance, name);
+  body_ = prepare(std::move(mesh), planar_tolerance, name, flipped_);
 }
 
 const TriangleMesh& PreparedMesh::mesh() const {
@@ -100,7 +100,9 @@ std::vector<std::array<std::int32_t, 2>> PreparedMesh::edges() const {
 }
 
 std::vector<std::string> PreparedMesh::findings() const {
-  return lmdbench::findings(check_mesh(body_->surface()));
+  std::vector<std::string> all = lmdbench::findings(check_mesh(body_->surface()));
+  if (flipped_ > 0) all.push_back(flipped_text(flipped_));
+  return all;
 }
 
 struct LmdSearch::State {

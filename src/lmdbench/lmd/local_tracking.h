@@ -75,20 +75,21 @@ TrackedPair shortest_pair(const TriangleList& moving, const TriangleList& fixed,
   return shortest;
 }
 
-/// Walks `start` to its local minimum.
+/// Walks an LMD to its local minimum. Of pairs at one distance the one that is there stays: flat
+/// faces at rest have many such, and an LMD that moves between them wanders.
+/// @param start the LMD as it was found or tracked last
+/// @param there its triangles or points at the current pose
 /// @param look  L1 and L2: (feature_moving, feature_fixed) -> the shortest TrackedPair round them
 /// @param steps rounds of L1..L4, is added to
 template <class Look>
-WalkEnd walk_by(const Lmd& start, Look&& look, std::uint64_t& steps) {
-  WalkEnd end{start, false};
-  for (bool first_round = true;; first_round = false) {
+WalkEnd walk_by(const Lmd& start, const Lmd& there, Look&& look, std::uint64_t& steps) {
+  WalkEnd end{there, false};
+  for (Lmd looked_round = start;; looked_round = end.lmd) {
     ++steps;
-    const TrackedPair shortest = look(end.lmd.feature_moving, end.lmd.feature_fixed);
-    const bool settled = same_feature_pair(shortest.lmd, end.lmd) ||
-                         (!first_round && !is_shorter(shortest.lmd.distance, end.lmd.distance));
+    const TrackedPair shortest = look(looked_round.feature_moving, looked_round.feature_fixed);
     end.is_duplicate = shortest.seen_by_other;
-    if (first_round || is_shorter(shortest.lmd.distance, end.lmd.distance)) end.lmd = shortest.lmd;
-    if (end.is_duplicate || settled) break;
+    if (is_shorter(shortest.lmd.distance, end.lmd.distance)) end.lmd = shortest.lmd;
+    if (end.is_duplicate || same_feature_pair(end.lmd, looked_round)) break;
   }
   set_direction(end.lmd, start.direction);
   return end;
@@ -98,12 +99,12 @@ WalkEnd walk_by(const Lmd& start, Look&& look, std::uint64_t& steps) {
 /// @param evaluate   as `shortest_pair` takes it
 /// @param neighbours (surface, feature) -> TriangleList of L1
 template <class Evaluate, class Neighbours = IncidentTriangles>
-WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& start, Evaluate&& evaluate,
-                        std::uint64_t& steps, Neighbours&& neighbours = {}) {
+WalkEnd walk_to_minimum(const Surface& moving, const Surface& fixed, const Lmd& start, const Lmd& there,
+                        Evaluate&& evaluate, std::uint64_t& steps, Neighbours&& neighbours = {}) {
   const auto look = [&](const FeatureId& feature_moving, const FeatureId& feature_fixed) {
     return shortest_pair(neighbours(moving, feature_moving), neighbours(fixed, feature_fixed), evaluate);
   };
-  return walk_by(start, look, steps);
+  return walk_by(start, there, look, steps);
 }
 
 }  // namespace lmdbench

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,55 +43,75 @@ class Sides {
 
 }  // namespace
 
-std::int64_t flip_flat_triangles(TriangleMesh& mesh) {
+std::int64_t flip_flat_triangles(TriangleMesh& mesh, double height) {
   const auto position = [&](std::int32_t v) -> const Vec3& {
     return mesh.vertices[static_cast<std::size_t>(v)];
   };
   const auto normal_of = [&](const Corners& corners) {
     return triangle_normal({position(corners[0]), position(corners[1]), position(corners[2])});
   };
+  const auto is_flat = [&](const Corners& corners) {
+    const Vec3 &a = position(corners[0]), &b = position(corners[1]), &c = position(corners[2]);
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    return normal_of(corners).isZero(0.0) || (b - a).cross(c - a).norm() <= height * longest;
+  };
   std::vector<std::size_t> flat;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (normal_of(mesh.triangles[t]).isZero(0.0)) flat.push_back(t);
+    if (is_flat(mesh.triangles[t])) flat.push_back(t);
   if (flat.empty()) return 0;
   Sides sides(mesh.triangles);
-  const auto flip = [&](std::size_t t) {
+  const auto flip = [&](std::size_t t) -> std::optional<std::size_t> {
     Corners& own = mesh.triangles[t];
     const auto length = [&](std::size_t k) { return (position(own[(k + 1) % 3]) - position(own[k])).norm(); };
     const std::size_t longest = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, length);
     const std::int32_t a = own[longest], b = own[(longest + 1) % 3], c = own[(longest + 2) % 3];
     const Vec3 along = position(b) - position(a), to_corner = position(c) - position(a);
     const double place = to_corner.dot(along);
-    if (!(place > 0.0 && place < along.squaredNorm())) return false;
-    if (sides(a, b).size() != 1 || sides(b, a).size() != 1) return false;
+    if (!(place > 0.0 && place < along.squaredNorm())) return std::nullopt;
+    if (sides(a, b).size() != 1 || sides(b, a).size() != 1) return std::nullopt;
     const std::size_t beyond = sides(b, a).front();
     Corners& other = mesh.triangles[beyond];
     const std::int32_t d = *std::ranges::find_if(other, [&](std::int32_t v) { return v != a && v != b; });
-    if (!sides(c, d).empty() || !sides(d, c).empty()) return false;
+    if (!sides(c, d).empty() || !sides(d, c).empty()) return std::nullopt;
     const Corners to_a{c, a, d}, to_b{d, b, c};
     const Vec3 normal = normal_of(other);
-    if (!(normal.dot(normal_of(to_a)) > 0.0 && normal.dot(normal_of(to_b)) > 0.0)) return false;
+    if (!(normal.dot(normal_of(to_a)) > 0.0 && normal.dot(normal_of(to_b)) > 0.0)) return std::nullopt;
     sides.remove(own, t);
     sides.remove(other, beyond);
     other = to_a;
     own = to_b;
     sides.add(other, beyond);
     sides.add(own, t);
-    return true;
+    return beyond;
   };
-  // Beyond one flat triangle may lie another one, which is flipped first.
+  // Beyond one flat triangle may lie another one that is flipped first: what waits is asked again.
   std::int64_t flipped = 0;
-  for (std::size_t left = flat.size() + 1; flat.size() < left;) {
-    left = flat.size();
-    std::erase_if(flat, flip);
-    flipped += static_cast<std::int64_t>(left - flat.size());
+  std::vector<bool> waits(mesh.triangles.size(), false);
+  std::vector<std::size_t> asked(flat.rbegin(), flat.rend());
+  while (!asked.empty()) {
+    const std::size_t t = asked.back();
+    asked.pop_back();
+    const std::optional<std::size_t> beyond = flip(t);
+    waits[t] = !beyond;
+    if (!beyond) continue;
+    ++flipped;
+    for (const std::size_t changed : {t, *beyond}) {
+      const Corners corners = mesh.triangles[changed];
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (const std::size_t beside : sides(corners[(k + 1) % 3], corners[k])) {
+          if (!waits[beside]) continue;
+          waits[beside] = false;
+          asked.push_back(beside);
+        }
+      }
+    }
   }
   return flipped;
 }
 
 std::string flipped_text(std::int64_t count) {
-  return fmt::format("{} triangle{} without area, which close{} T junctions, flipped with the faces beside",
-                     count, count == 1 ? "" : "s", count == 1 ? "s" : "");
+  return fmt::format("{} flat triangle{}, which close{} T junctions, flipped with the faces beside", count,
+                     count == 1 ? "" : "s", count == 1 ? "s" : "");
 }
 
 }  // namespace lmdbench

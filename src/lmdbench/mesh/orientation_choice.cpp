@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -43,6 +44,22 @@ bool agree(const TriangleMesh& mesh, const std::array<std::int32_t, 2>& edge, st
   return first != second;
 }
 
+/// A piece with a border has an edge at which an odd number of its own triangles meet; those of
+/// another piece that touches it there do not count.
+void find_borders(std::vector<Piece>& pieces, const Adjacency& adjacency) {
+  std::vector<std::size_t> piece_of(adjacency.triangle_edges.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (const std::int32_t t : pieces[i].triangles) piece_of[static_cast<std::size_t>(t)] = i;
+  std::vector<std::size_t> around;
+  for (std::int32_t e = 0; e < adjacency.edge_count(); ++e) {
+    around.clear();
+    for (const std::int32_t t : adjacency.edge_triangles[e])
+      around.push_back(piece_of[static_cast<std::size_t>(t)]);
+    for (const std::size_t i : around)
+      if (std::ranges::count(around, i) % 2 != 0) pieces[i].closed = false;
+  }
+}
+
 /// Makes the triangles of every piece agree, as far as possible.
 std::vector<Piece> agreeing_pieces(TriangleMesh& mesh, const Adjacency& adjacency) {
   std::vector<Piece> pieces;
@@ -57,10 +74,7 @@ std::vector<Piece> agreeing_pieces(TriangleMesh& mesh, const Adjacency& adjacenc
       const std::int32_t t = piece.triangles[next];
       for (const std::int32_t e : adjacency.triangle_edges[static_cast<std::size_t>(t)]) {
         const auto around = adjacency.edge_triangles[e];
-        if (around.size() != 2) {
-          piece.closed = false;
-          continue;
-        }
+        if (around.size() != 2) continue;
         const std::int32_t other = around[0] == t ? around[1] : around[0];
         if (other == t || seen[static_cast<std::size_t>(other)]) continue;
         seen[static_cast<std::size_t>(other)] = true;
@@ -76,6 +90,7 @@ std::vector<Piece> agreeing_pieces(TriangleMesh& mesh, const Adjacency& adjacenc
       for (const Vec3& corner : mesh.triangle(t)) piece.box.extend(corner);
     pieces.push_back(std::move(piece));
   }
+  find_borders(pieces, adjacency);
   return pieces;
 }
 
@@ -104,14 +119,28 @@ double relative_volume(const TriangleMesh& mesh, const Piece& piece) {
   return area > 0.0 ? volume / std::pow(area, 1.5) : 0.0;
 }
 
+/// Whether a closed piece encloses another one, which may touch it from within or from outside: a
+/// point of the other one tells that is not on it, where the winding number is no integer.
+bool encloses(const TriangleMesh& mesh, const Piece& outer, const Piece& inner) {
+  constexpr double WHOLE = 0.01;         // on a face it is a half, at a box's corner an eighth
+  constexpr std::size_t LOOKED_AT = 64;  // of large pieces; one that has none elsewhere is beside
+  if (!outer.closed || !outer.box.contains(inner.box)) return false;
+  const std::size_t step = (inner.triangles.size() + LOOKED_AT - 1) / LOOKED_AT;
+  for (std::size_t i = 0; i < inner.triangles.size(); i += step) {
+    const Triangle c = mesh.triangle(inner.triangles[i]);
+    for (const Vec3& point : {c[0], Vec3((c[0] + c[1] + c[2]) / 3.0)}) {
+      const double turns = std::abs(winding_number(point, mesh, outer.triangles));
+      if (std::abs(turns - std::round(turns)) < WHOLE) return turns > 0.5;
+    }
+  }
+  return false;
+}
+
 /// Whether an odd number of other closed pieces enclose this one.
 bool is_cavity(const TriangleMesh& mesh, const std::vector<Piece>& pieces, std::size_t which) {
-  const Vec3 point = mesh.triangle(pieces[which].triangles.front())[0];
   bool odd = false;
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (i != which && pieces[i].closed && pieces[i].box.contains(point) &&
-        std::abs(winding_number(point, mesh, pieces[i].triangles)) > 0.5)
-      odd = !odd;
+    if (i != which && encloses(mesh, pieces[i], pieces[which])) odd = !odd;
   return odd;
 }
 

@@ -38,7 +38,8 @@ struct OrientationReport {
 /// Turns triangles until every piece of the surface has one outer side, away from the solid.
 ///  1. Triangles that share an edge with one other are made to agree, in the way that turns fewer.
 ///  2. A closed piece is turned to enclose a positive volume; a negative one where an odd number of
-///     other closed pieces enclose it, because a cavity's outer side is its inside.
+///     other closed pieces enclose it, because a cavity's outer side is its inside. Pieces
+///     may touch; solids that share a whole face are not told apart.
 ///  3. An open piece is turned where the cone from its centroid over it has a clearly negative
 ///     volume (OPEN_VOLUME). A smaller one, as of a sheet, decides nothing; the report counts it.
 /// The order of triangles and their first corners stay.

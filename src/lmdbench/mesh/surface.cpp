@@ -30,24 +30,13 @@ void for_each_index(std::size_t count, Body body) {
 void derive_normals(Surface& surface) {
   const TriangleMesh& mesh = surface.mesh;
   surface.face_normals.resize(mesh.triangles.size());
-  std::vector<std::array<double, 3>> angles(mesh.triangles.size());
   for_each_index(mesh.triangles.size(), [&](std::size_t t) {
-    const Triangle corners = mesh.triangle(static_cast<std::int32_t>(t));
-    surface.face_normals[t] = triangle_normal(corners);
+    surface.face_normals[t] = triangle_normal(mesh.triangle(static_cast<std::int32_t>(t)));
     LMDBENCH_ENSURES(is_unit_or_zero(surface.face_normals[t]), "coordinates beyond what import lets through");
-    angles[t] = corner_angles(corners);
   });
   surface.vertex_pseudo_normals.resize(mesh.vertices.size());
   for_each_index(mesh.vertices.size(), [&](std::size_t v) {
-    const auto vertex = static_cast<std::int32_t>(v);
-    Vec3 sum = Vec3::Zero();
-    for (const std::int32_t triangle : surface.adjacency.vertex_triangles[vertex]) {
-      const auto t = static_cast<std::size_t>(triangle);
-      if (surface.face_normals[t].isZero(0.0)) continue;
-      for (std::size_t k = 0; k < 3; ++k)
-        if (mesh.triangles[t][k] == vertex) sum += angles[t][k] * surface.face_normals[t];
-    }
-    surface.vertex_pseudo_normals[v] = sum.stableNormalized();
+    surface.vertex_pseudo_normals[v] = vertex_pseudo_normal(surface, static_cast<std::int32_t>(v));
     LMDBENCH_ENSURES(is_unit_or_zero(surface.vertex_pseudo_normals[v]),
                      "a corner angle that is not a number");
   });
@@ -126,11 +115,21 @@ void derive_flags(Surface& surface) {
     surface.vertex_has_several_fans[v] = has_several_fans(surface, static_cast<std::int32_t>(v));
 }
 
+/// A sum of unit normals that cancel is the rounding of their triangles, at most that of one whose
+/// area is hardly told from none (ZERO_AREA_TOLERANCE): no direction. Sheets with both sides have
+/// such edges and corners.
+constexpr double CANCELLED = 1e-12;
+
+/// @param weight sum of the weights of the unit vectors in the sum
+Vec3 direction_of_sum(const Vec3& sum, double weight) {
+  return sum.norm() > CANCELLED * weight ? Vec3(sum.normalized()) : Vec3(Vec3::Zero());
+}
+
 Vec3 edge_pseudo_normal(const Surface& surface, std::int32_t edge) {
   Vec3 sum = Vec3::Zero();
   for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge])
     sum += surface.face_normals[static_cast<std::size_t>(triangle)];
-  return sum.stableNormalized();
+  return direction_of_sum(sum, static_cast<double>(surface.adjacency.edge_triangles[edge].size()));
 }
 
 template <class T>
@@ -146,14 +145,19 @@ std::size_t bytes_of(const std::vector<bool>& flags) {
 
 Vec3 vertex_pseudo_normal(const Surface& surface, std::int32_t vertex) {
   Vec3 sum = Vec3::Zero();
+  double angles = 0.0;
   for (const std::int32_t triangle : surface.adjacency.vertex_triangles[vertex]) {
     const auto t = static_cast<std::size_t>(triangle);
     if (surface.face_normals[t].isZero(0.0)) continue;
     const Triangle corners = surface.mesh.triangle(triangle);
-    for (std::size_t k = 0; k < 3; ++k)
-      if (surface.mesh.triangles[t][k] == vertex) sum += corner_angle(corners, k) * surface.face_normals[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (surface.mesh.triangles[t][k] != vertex) continue;
+      const double angle = corner_angle(corners, k);
+      sum += angle * surface.face_normals[t];
+      angles += angle;
+    }
   }
-  return sum.stableNormalized();
+  return direction_of_sum(sum, angles);
 }
 
 FeatureId Surface::feature_of(std::int32_t triangle, TriangleFeature part) const {

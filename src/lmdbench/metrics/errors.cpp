@@ -94,7 +94,7 @@ void summarise_counts(MethodSummary& summary, const MethodRecord& record, const 
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const FrameRecord& frame = record.frames[i];
     most = std::max(most, frame.lmd_count);
-    if (frame.contact_without_direction > 0) ++touching;
+    if (frame.minimum_distance == 0.0) ++touching;
     if (frames.in_contact[i]) counts.push_back(static_cast<double>(frame.lmd_count));
   }
   std::int64_t all_candidates = 0, all_kept = 0;
@@ -190,10 +190,12 @@ void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<Tr
     if (!row.same.exact()) ++wrong;
     distance.push_back(std::abs(row.minimum_distance_error));
     if (!frames.in_contact[static_cast<std::size_t>(truth[i].frame)]) continue;
-    jump.push_back(row.force_jump);
-    true_jump.push_back(truth[i].force_jump[index]);
-    if (truth[i].force_jump[index] > JUMP_SHARE * frames.maximum_force) ++true_jumps;
-    if (minimum_distance(truth[i].lmds) == 0.0) continue;
+    if (!std::isnan(truth[i].force_jump[index])) {
+      jump.push_back(row.force_jump);
+      true_jump.push_back(truth[i].force_jump[index]);
+      if (truth[i].force_jump[index] > JUMP_SHARE * frames.maximum_force) ++true_jumps;
+    }
+    if (truth[i].contact_without_direction() > 0) continue;
     force.push_back(row.force_error);
     angle.push_back(row.force_angle_error);
   }

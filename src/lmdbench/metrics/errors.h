@@ -64,8 +64,8 @@ void summarise_rendering(MethodSummary& summary, const MethodRecord& record, con
 /// Errors over the probed frames:
 /// - recall and precision are pooled (lmd/agreement.h) over all of them;
 /// - force errors and the angle count the frames in contact, so that free flight does not flatter
-///   them, except those of true minimum distance 0: touching triangles have no direction, so no
-///   force is the true one. The angle also needs two forces;
+///   them, except those in which triangles intersect: they have no direction, so no force is the
+///   true one. The angle also needs two forces;
 /// - changes of force, the method's and the true one, and true jumps are over the same frames in
 ///   contact; `summarise_true_steps` is better where truth is known in every frame;
 /// - the minimum distance is compared where both the method and truth have an LMD.

@@ -73,36 +73,42 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     const TruthFrame& here = truth[i];
     const auto frame = static_cast<std::size_t>(here.frame);
     const FrameRecord& now = record.frames[frame];
+    const bool is_known = here.contact_without_direction() == 0;  // else no force is the true one
     if (frame + 1 < record.frames.size()) {
-      const bool jumps = (record.frames[frame + 1].force - now.force).norm() > JUMP_SHARE * maximum_force;
+      const FrameRecord& next = record.frames[frame + 1];
+      const bool jumps = (next.force - now.force).norm() > JUMP_SHARE * maximum_force;
       const bool truly = here.force_jump[index] > JUMP_SHARE * maximum_force;
+      const bool step_is_known = !std::isnan(here.force_jump[index]);
       numbers.jumps += jumps ? 1.0 : 0.0;
       numbers.true_jumps += truly ? 1.0 : 0.0;
-      numbers.false_jumps += jumps && !truly ? 1.0 : 0.0;
+      numbers.false_jumps += jumps && step_is_known && !truly ? 1.0 : 0.0;
       numbers.missed_jumps += truly && !jumps ? 1.0 : 0.0;
+      // Steps into contact and out of it count; the last one has no true end.
+      if ((in_contact[frame] || in_contact[frame + 1]) && i + 1 < truth.size()) {
+        numbers.switches += is_switch(now.force, next.force, maximum_force) ? 1.0 : 0.0;
+        numbers.true_switches +=
+            step_is_known && is_switch(here.force[index], truth[i + 1].force[index], maximum_force) ? 1.0
+                                                                                                    : 0.0;
+        add_changes(numbers.births, numbers.deaths, record.lmds.at(here.frame),
+                    record.lmds.at(here.frame + 1), run.scene());
+        add_changes(numbers.true_births, numbers.true_deaths, here.lmds, truth[i + 1].lmds,
+                    truth_run.scene());
+      }
     }
     if (!in_contact[frame]) continue;
     const double true_length = here.force[index].norm();
     force.push_back(now.force.norm());
-    true_force.push_back(true_length);
+    if (is_known) true_force.push_back(true_length);
     count.push_back(static_cast<double>(now.lmd_count));
     true_count.push_back(static_cast<double>(here.lmds.size()));
     numbers.frames_clipped += now.force_clipped ? 1.0 : 0.0;
     numbers.frames_empty += now.lmd_count == 0 ? 1.0 : 0.0;
     distance.push_back(std::abs(rows[i].minimum_distance_error));
-    if (!(minimum_distance(here.lmds) == 0.0)) {  // touching: no true force
+    if (is_known) {
       magnitude.add(now.force.norm() - true_length);
       angle.push_back(rows[i].force_angle_error);
       torque.add((now.torque - here.torque[index]).norm());
     }
-    if (i + 1 >= truth.size()) continue;  // no true end is known here
-    const FrameRecord& next = record.frames[frame + 1];
-    numbers.switches += is_switch(now.force, next.force, maximum_force) ? 1.0 : 0.0;
-    numbers.true_switches +=
-        is_switch(here.force[index], truth[i + 1].force[index], maximum_force) ? 1.0 : 0.0;
-    add_changes(numbers.births, numbers.deaths, record.lmds.at(here.frame), record.lmds.at(here.frame + 1),
-                run.scene());
-    add_changes(numbers.true_births, numbers.true_deaths, here.lmds, truth[i + 1].lmds, truth_run.scene());
   }
   for (const SearchRecord& search : record.searches) {
     numbers.candidates += static_cast<double>(search.candidates);

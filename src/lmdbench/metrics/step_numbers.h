@@ -19,7 +19,8 @@ namespace lmdbench {
 inline constexpr double ZERO_SHARE = 0.05;
 inline constexpr double STRONG_SHARE = 0.5;
 
-/// NaN for unmeasured numbers. Over all frames and steps in contact.
+/// NaN for unmeasured numbers. Over the frames in contact and the steps from and to one. Where
+/// triangles intersect no force is the true one: such frames and steps count in no comparison.
 struct StepNumbers {
   double jumps = UNSET;       ///< Steps with a force change over JUMP_SHARE of F_max (errors.h).
   double true_jumps = UNSET;  ///< The same of the true force. Both are in the summary.

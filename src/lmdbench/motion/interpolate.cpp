@@ -3,6 +3,7 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
+#include <lmdbench/base/statistics.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/rotation_vector.h>
 
@@ -78,10 +79,7 @@ void PathInterpolator::find_gaps(double gap_intervals) {
   for (std::size_t i = 0; i + 1 < path_.size(); ++i) steps.push_back(path_[i + 1].time - path_[i].time);
   held_.assign(steps.size(), false);
   if (steps.empty()) return;
-  std::vector<double> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  sample_interval_ = *middle;
+  sample_interval_ = median(steps);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     held_[i] = gap_intervals > 0.0 && steps[i] > gap_intervals * sample_interval_;
     if (held_[i]) gaps_.push_back({path_[i].time, steps[i]});

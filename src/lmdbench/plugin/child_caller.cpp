@@ -105,7 +105,10 @@ class Child {
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
-  ~Child() { end(); }
+  ~Child() {
+    socket_ = FileDescriptor();  // tells it to destroy the method and end
+    end();
+  }
 
   bool send(const wire::Request& request) {
     return ::send(socket_.get(), &request, sizeof(request), MSG_NOSIGNAL) == sizeof(request);

@@ -139,6 +139,7 @@ void serve(const std::string& file) {
     for (;;) {
       const ssize_t got = ::recv(wire::SOCKET, &request, sizeof(request), 0);
       if (got < 0 && errno == EINTR) continue;
+      if (got == 0) return;  // the end of the search: destroys the method
       if (got != sizeof(request)) ::_exit(NOBODY_ASKS);
       answer = {};
       answer.number = request.number;

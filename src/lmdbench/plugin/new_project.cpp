@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -28,6 +29,12 @@ std::string new_plugin(const std::filesystem::path& folder, const std::string& l
   const fs::path whole = fs::absolute(folder).lexically_normal();
   std::string name =
       whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
+  static const std::set<std::string> TARGETS{"all",     "clean",   "edit_cache",    "help",
+                                             "install", "package", "rebuild_cache", "test"};
+  if (TARGETS.contains(name))
+    throw UsageError(folder.string(), "",
+                     "the folder's name becomes a target's, and CMake has one of this name",
+                     "call it otherwise");
   if (!std::regex_match(name, std::regex("[a-z][a-z0-9_-]{0,40}")))
     throw UsageError(folder.string(), "", "the folder's name becomes the method's, and cannot be one",
                      "take up to 41 small letters, digits, '-' and '_'");

@@ -131,7 +131,7 @@ Json checked_options(const std::string& text, const std::string& file, const std
   }
   try {
     validate_against_schema(defaults, {{"type", "object"}, {"properties", options}}, file);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // the validator's own, too: options may be no schema
     fail(std::string("its own defaults break its options: ") + error.what());
   }
   return options;
@@ -190,7 +190,8 @@ MethodDescription description_of(const Json& method, const std::filesystem::path
 }  // namespace
 
 std::vector<MethodDescription> plugin_methods(const std::filesystem::path& file, PluginTrust trust) {
-  const std::string text = describe_plugin(file);
+  // A bare name would be looked for among the system's libraries.
+  const std::string text = describe_plugin(std::filesystem::absolute(file));
   std::vector<MethodDescription> methods;
   try {
     const Json json = Json::parse(text);
@@ -199,17 +200,16 @@ std::vector<MethodDescription> plugin_methods(const std::filesystem::path& file,
   } catch (const Json::exception&) {
     throw InputError(file.string(), "", "says of itself what cannot be read", "see lmdbench_method.h");
   }
+  const std::vector<std::string> names = method_names();
+  for (const MethodDescription& method : methods)
+    if (std::ranges::find(names, method.name) != names.end())
+      throw InputError(file.string(), "", fmt::format("there is a method \"{}\" already", method.name),
+                       "give the plugin's method another name");
   return methods;
 }
 
 void add_plugin(const std::filesystem::path& file, PluginTrust trust) {
-  for (MethodDescription& method : plugin_methods(file, trust)) {
-    const std::vector<std::string> names = method_names();
-    if (std::find(names.begin(), names.end(), method.name) != names.end())
-      throw InputError(file.string(), "", fmt::format("there is a method \"{}\" already", method.name),
-                       "give the plugin's method another name");
-    add_method(std::move(method));
-  }
+  for (MethodDescription& method : plugin_methods(file, trust)) add_method(std::move(method));
 }
 
 }  // namespace lmdbench

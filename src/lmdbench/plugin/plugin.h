@@ -18,12 +18,12 @@ enum class PluginTrust : std::uint8_t {
 };
 
 /// The checked descriptions of a plugin's methods; none of its code runs in this process yet.
-/// @throws InputError naming the file and the fault: not loadable, another ABI, a bad name, options
-///         that are no schema
+/// @throws InputError naming the file and the fault: not loadable, another ABI, a bad name or one
+///         that is in use, options that are no schema
 std::vector<MethodDescription> plugin_methods(const std::filesystem::path& file, PluginTrust trust);
 
 /// Adds its methods to the end of the registry. For the start of a program, as `set_limit`.
-/// @throws InputError as above, or for a name that is in use
+/// @throws InputError as above
 void add_plugin(const std::filesystem::path& file, PluginTrust trust);
 
 }  // namespace lmdbench

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
 #include <lmdbench/catalogue/manifest.h>
-#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/prepare/load_scene.h>
@@ -22,7 +22,7 @@ MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
   const ResolvedMesh resolved =
       is_mesh_name(object.mesh)
           ? resolve_mesh(object.mesh, experiment.mesh_folder)
-          : resolve_mesh((experiment.file.parent_path() / object.mesh).lexically_normal().string());
+          : resolve_mesh(shortened(experiment.file.parent_path() / object.mesh).string());
   MeshNote note;
   note.name = object.mesh;
   note.file = resolved.file;
@@ -34,9 +34,7 @@ MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
   PlanarTolerance tolerance = object.planar_tolerance;
   if (tolerance.kind == PlanarTolerance::Kind::LENGTH) tolerance.value /= scale;
   if (object.orientation == OrientationChoice::OUTWARD) note.orientation = orient_outward(mesh);
-  // Where a mesh deforms its triangles gain area.
-  if (!object.deformation) note.flipped_triangles = flip_flat_triangles(mesh);
-  note.flattening = flatten(mesh, tolerance);
+  note.flattening = flatten(mesh, tolerance, !object.deformation);
   note.flattening.tolerance *= scale;
   note.flattening.largest_move *= scale;
   mesh = placed(std::move(mesh), object.placement);

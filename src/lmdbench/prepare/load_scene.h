@@ -28,8 +28,7 @@ struct MeshNote {
   std::int64_t size = 0;                      ///< Bytes of that file
   std::string sha256;                         ///< Of that file, or of a generated shape's file.
   ValidityReport report;
-  std::int64_t flipped_triangles = 0;  ///< Without area (flat_triangles.h).
-  FlatteningReport flattening;         ///< In metres of the scene.
+  FlatteningReport flattening;  ///< In metres of the scene.
   OrientationReport orientation;
   std::shared_ptr<const FrameVertices> vertices;  ///< Of a deforming mesh, frame by frame.
   std::shared_ptr<const Body> body;               ///< At rest.

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/input_file.h>
+#include <lmdbench/base/plain_name.h>
+#include <lmdbench/base/printable_text.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/experiment.h>
 #include <lmdbench/mesh/self_intersections.h>
@@ -46,10 +49,7 @@ std::string seen_from(const std::filesystem::path& folder, const std::string& me
 }
 
 std::string stem_of(const std::string& mesh) {
-  std::string stem = std::filesystem::path(mesh).stem().string();
-  for (char& c : stem)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') c = '-';
-  return stem;
+  return plain_name(std::filesystem::path(mesh).stem().string(), "_");
 }
 
 /// A mesh of the new scene.
@@ -221,8 +221,12 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                              const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
                              const Progress& progress, const InitChoices& chosen) {
   NewExperiment result;
-  result.name = stem_of(moving) + "-" + stem_of(fixed);
-  result.name.erase(0, result.name.find_first_not_of("-_"));
+  for (const std::string& mesh : {moving, fixed})
+    if (!is_utf8(mesh))
+      throw UsageError(printable(mesh), "", "is no UTF-8 name, which an experiment cannot hold",
+                       "rename the file");
+  result.name = plain_name(stem_of(moving) + "-" + stem_of(fixed), "-_");
+  if (result.name.empty()) result.name = "experiment";
   if (chosen.contact) result.name += "-contact";
   result.experiment_file = folder / (result.name + ".json");
   result.specification_file = folder / (result.name + ".path.json");
@@ -232,8 +236,8 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                    {"title", fmt::format("{} past {}", stem_of(moving), stem_of(fixed))}};
   std::error_code none;
   if ((is_mesh_name(moving) || is_mesh_name(fixed)) &&
-      !std::filesystem::equivalent(default_mesh_folder((folder / ".." / "meshes").lexically_normal()),
-                                   mesh_folder, none))
+      !std::filesystem::equivalent(default_mesh_folder(shortened(folder / ".." / "meshes")), mesh_folder,
+                                   none))
     json["mesh_folder"] = path_from(folder, mesh_folder);
   GivenMesh moving_part = part_of(moving, "/moving", mesh_folder);
   GivenMesh fixed_part = part_of(fixed, "/fixed/0", mesh_folder);

@@ -147,7 +147,8 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
     prepared.times.push_back(frame.time);
   }
   if (experiment.realtime && experiment.realtime->seconds)
-    lengthen(input.poses, prepared.times, experiment.frame_rate_hz, *experiment.realtime->seconds);
+    lengthen(input.poses, prepared.times, experiment.frame_rate_hz, *experiment.realtime->seconds,
+             experiment.file.string());
   if (!loaded.movers.empty()) {
     const MoverPoses poses = mover_poses(experiment, loaded.movers, input.poses, path->frames.size());
     append(prepared.files, poses.files);
@@ -170,9 +171,8 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
       0.0;
   if (prepared.starts_touching)
     prepared.warnings.emplace_back(
-        "the meshes touch in the first frame: LMDs at distance 0 have no direction there and exert no force "
-        "until they "
-        "have been apart");
+        "the meshes touch in the first frame: LMDs of triangles that intersect have no direction there and "
+        "exert no force until they have been apart");
   return prepared;
 }
 

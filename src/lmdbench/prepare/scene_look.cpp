@@ -31,7 +31,11 @@ class BoxedMesh {
     const Vec3 point_F = X_WF_.rotation.conjugate() * (point - X_WF_.translation);
     return closed_ && box_.contains(point_F) && std::abs(winding_number(point_F, *mesh_)) > 0.5;
   }
-  [[nodiscard]] Vec3 first_vertex() const { return RigidTransform(X_WF_).point(mesh_->vertices.front()); }
+  /// Moved inwards a little: that of a part which rests on another one is on its surface.
+  [[nodiscard]] Vec3 first_vertex() const {
+    const Vec3& vertex = mesh_->vertices.front();
+    return RigidTransform(X_WF_).point(vertex + 1e-6 * (box_.center() - vertex));
+  }
 
  private:
   bool closed_;

@@ -129,8 +129,9 @@ FramePath read_held_path(const Experiment& experiment) {
 FramePath make_path(const Experiment& experiment, const Scene& scene, const Progress& progress) {
   GrazingPath made = grazing_path_of(experiment, scene, progress);
   const std::string text = tum_text(made.path);
-  Path frames = resample(PathInterpolator(made.path, experiment.held().motion.interpolation),
-                         experiment.frame_rate_hz, wanted_frames(experiment));
+  const PathInterpolator path(made.path, experiment.held().motion.interpolation);
+  refuse_too_many_frames(path, experiment.frame_rate_hz, wanted_frames(experiment), experiment.file.string());
+  Path frames = resample(path, experiment.frame_rate_hz, wanted_frames(experiment));
   return {std::move(frames),
           {"path", "", sha256_of_text(text), static_cast<std::int64_t>(text.size())},
           {},
@@ -146,8 +147,15 @@ DefaultNote note_of(const GrazingPath& made, double cutoff) {
               GRAZING_GAPS_IN_CUTOFFS[1].gap, GRAZING_GAPS_IN_CUTOFFS[2].gap, cutoff)};
 }
 
-void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame_rate_hz, double seconds) {
-  const auto wanted = static_cast<std::size_t>(std::llround(seconds * frame_rate_hz)) + 1;
+void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame_rate_hz, double seconds,
+              const std::string& file) {
+  const double frames = seconds * frame_rate_hz;
+  if (!(frames < static_cast<double>(limit_of(Limit::FRAMES))))
+    throw UsageError(file, "/driver/realtime/seconds",
+                     fmt::format("{:g} frames at {:g} Hz, above the limit of {}", frames, frame_rate_hz,
+                                 limit_of(Limit::FRAMES)),
+                     "ask for less time, or " + raise_remedy(Limit::FRAMES));
+  const auto wanted = static_cast<std::size_t>(std::llround(frames)) + 1;
   there_and_back(poses, wanted);
   times.resize(poses.size());
   for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) / frame_rate_hz;

@@ -36,7 +36,10 @@ FramePath make_path(const Experiment& experiment, const Scene& scene, const Prog
 DefaultNote note_of(const GrazingPath& made, double cutoff);
 
 /// Repeats the path there and back until the run's end.
-void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame_rate_hz, double seconds);
+/// @param file of the experiment, for messages
+/// @throws UsageError above the limit of frames
+void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame_rate_hz, double seconds,
+              const std::string& file);
 
 /// Poses of all movers in each frame, with the files of their paths and warnings.
 struct MoverPoses {

@@ -57,7 +57,7 @@ std::vector<std::string> mesh_warnings(const Experiment& experiment, const std::
                       coincident, note.instances.size()));
     // A mesh used twice gets its warnings once.
     if (earlier_body(experiment, i)) continue;
-    if (note.flipped_triangles > 0) warn(flipped_text(note.flipped_triangles));
+    if (note.flattening.flipped_triangles > 0) warn(flipped_text(note.flattening.flipped_triangles));
     if (note.flattening.moved_vertices > 0) warn(to_text(note.flattening));
     if (note.orientation.choice == OrientationChoice::OUTWARD) warn(to_text(note.orientation));
     for (const std::string& finding : findings(note.report)) warn(finding);

@@ -24,6 +24,15 @@ double force_angle(const Vec3& a, const Vec3& b) {
   return a.isZero(0.0) || b.isZero(0.0) ? UNSET : angle_between(a, b);
 }
 
+std::array<double, FORCE_LAW_COUNT> change_of_force(const TruthFrame& here, const TruthFrame& next) {
+  std::array<double, FORCE_LAW_COUNT> change{};
+  change.fill(UNSET);
+  if (here.contact_without_direction() > 0 || next.contact_without_direction() > 0) return change;
+  for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
+    change[law] = (next.force[law] - here.force[law]).norm();
+  return change;
+}
+
 std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
                                         const std::function<TruthFrame(std::int64_t frame)>& truth_at,
                                         const Progress& progress) {
@@ -31,9 +40,7 @@ std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
   for (const std::int64_t frame : frames) {
     TruthFrame here = truth_at(frame);
     here.frame = frame;
-    const TruthFrame next = truth_at(frame + 1);
-    for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
-      here.force_jump[law] = (next.force[law] - here.force[law]).norm();
+    here.force_jump = change_of_force(here, truth_at(frame + 1));
     truth.push_back(std::move(here));
     tell_progress(progress, truth.size(), frames.size());
   }
@@ -83,6 +90,10 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input
     return found;
   };
   return truth_of_frames(frames, search, progress);
+}
+
+std::int64_t TruthFrame::contact_without_direction() const {
+  return std::ranges::count_if(lmds, [](const Lmd& lmd) { return lmd.direction.hasNaN(); });
 }
 
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
@@ -224,7 +235,10 @@ std::vector<ProbeDataset> truth_datasets() {
       .column("lmd_count", "1", "true LMDs within the cutoff",
               [](Frame t) { return static_cast<std::int64_t>(t.lmds.size()); })
       .column("minimum_distance", "m", "smallest true LMD distance",
-              [](Frame t) { return minimum_distance(t.lmds); });
+              [](Frame t) { return minimum_distance(t.lmds); })
+      .column("contact_without_direction", "1",
+              "true LMDs of triangles that intersect: with one, no force is the true one",
+              [](Frame t) { return t.contact_without_direction(); });
   for (const ForceLaw law : force_laws())
     reference.column(fmt::format("force_{}", to_string(law)), "N",
                      fmt::format("rendered force of the true set, {} law", to_string(law)),
@@ -310,7 +324,7 @@ std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& r
     return run.input.device.render(truth.wrenches[law][frame], run.profiles.front().force.largest_sum).force;
   };
   std::vector<TruthFrame> result;
-  for (auto frame = static_cast<std::size_t>(first); frame + 1 < truth.sets.size(); ++frame) {
+  for (auto frame = static_cast<std::size_t>(first); frame < truth.sets.size(); ++frame) {
     TruthFrame here;
     here.frame = static_cast<std::int64_t>(frame);
     here.lmds = truth.sets[frame];
@@ -318,10 +332,11 @@ std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& r
       const auto index = static_cast<std::size_t>(law);
       here.force[index] = rendered(frame, index);
       here.torque[index] = truth.wrenches[index][frame].torque;
-      here.force_jump[index] = (rendered(frame + 1, index) - here.force[index]).norm();
     }
+    if (!result.empty()) result.back().force_jump = change_of_force(result.back(), here);
     result.push_back(std::move(here));
   }
+  if (!result.empty()) result.pop_back();
   return result;
 }
 

@@ -20,8 +20,8 @@
 /// next, outside the timed frames, and every method is compared with it. Force errors compare
 /// rendered forces (clipped by the same device) under the method's own law: they show the effect of
 /// the LMD set, not of the law. The aggregation is the profile's, also for a method whose LMDs can
-/// only be summed. Where the meshes touch, a true LMD at distance 0 has no direction and adds no
-/// force, while a moving method keeps its last direction (E12): force errors there mean little.
+/// only be summed. Where triangles intersect, a true LMD has no direction and adds no force, while
+/// a moving method keeps its last direction (E12): force errors there mean little.
 namespace lmdbench {
 
 /// Truth at one frame.
@@ -31,8 +31,12 @@ struct TruthFrame {
   std::array<Vec3, FORCE_LAW_COUNT> force = no_forces();  ///< Rendered, under each law [N].
   /// Torque on the moving mesh before clipping, under each law [N m]; only of `truth_frames`.
   std::array<Vec3, FORCE_LAW_COUNT> torque = no_forces();
-  std::array<double, FORCE_LAW_COUNT> force_jump{};  ///< |force at the next frame - force| [N].
-  ForcesByLaw movers;                                ///< Of movers, the moving mesh first [N].
+  /// |force at the next frame - force| [N]; NaN where no force is the true one in either frame.
+  std::array<double, FORCE_LAW_COUNT> force_jump{};
+  ForcesByLaw movers;  ///< Of movers, the moving mesh first [N].
+
+  /// LMDs of triangles that intersect: with one of them no force is the true one.
+  std::int64_t contact_without_direction() const;
 
   static std::array<Vec3, FORCE_LAW_COUNT> no_forces() {
     std::array<Vec3, FORCE_LAW_COUNT> forces;

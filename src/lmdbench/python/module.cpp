@@ -14,6 +14,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -40,6 +41,7 @@ struct Sets {
   std::vector<LmdSet> sets;
   std::vector<double> seconds;
   Scene scene;
+  Path path;
 };
 
 /// A search that Python's threads can share: one waits for the other.
@@ -57,6 +59,7 @@ class Search {
     const std::lock_guard lock(mutex_);
     auto found = std::make_shared<Sets>();
     found->scene = scene_;
+    found->path = path;
     found->sets.reserve(path.size());
     found->seconds.reserve(path.size());
     Clock::time_point looked = Clock::now();
@@ -81,6 +84,10 @@ class Search {
 
 py::tuple forces(const Sets& sets, const ForceProfile& profile, const Points& references) {
   validate_force_profile(profile);
+  if (profile.cutoff > sets.scene.cutoff)
+    throw UsageError("", "cutoff",
+                     fmt::format("{} m is above that of the search, {} m", profile.cutoff, sets.scene.cutoff),
+                     "search with the larger one");
   const std::size_t count = sets.sets.size();
   require_rows(references, count, "reference");
   std::vector<Vec3> force(count);
@@ -100,12 +107,13 @@ py::tuple forces(const Sets& sets, const ForceProfile& profile, const Points& re
 }
 
 bool same_shapes(const Scene& a, const Scene& b) {
-  const auto triangles = [](const Scene& scene) {
-    std::vector<std::size_t> counts{scene.moving->surface().mesh.triangles.size()};
-    for (const auto& body : scene.fixed) counts.push_back(body->surface().mesh.triangles.size());
-    return counts;
+  const auto same = [](const Body& x, const Body& y) {
+    const TriangleMesh &first = x.surface().mesh, &second = y.surface().mesh;
+    return first.vertices == second.vertices && first.triangles == second.triangles;
   };
-  return triangles(a) == triangles(b);
+  return same(*a.moving, *b.moving) &&
+         std::ranges::equal(a.fixed, b.fixed,
+                            [&](const FixedBody& x, const FixedBody& y) { return same(*x, *y); });
 }
 
 /// (N, 4) counts: true, found, reported, right.
@@ -115,6 +123,11 @@ py::array agreements(const Sets& truth, const Sets& reported, bool neighbouring)
                      "search the same poses");
   if (!same_shapes(truth.scene, reported.scene))
     throw UsageError("", "sets", "are of different meshes", "search the same meshes");
+  if (!std::ranges::equal(truth.path, reported.path, [](const TimedPose& a, const TimedPose& b) {
+        return a.pose.translation == b.pose.translation &&
+               a.pose.rotation.coeffs() == b.pose.rotation.coeffs();
+      }))
+    throw UsageError("", "sets", "are of different poses", "search the same poses");
   std::vector<std::array<std::int64_t, 4>> rows(truth.sets.size());
   {
     const py::gil_scoped_release released;

@@ -105,8 +105,8 @@ class MethodOnClock {
         memory_(profile_.cutoff) {
     for (std::int64_t frame = 0; frame < frames_; ++frame)
       kept_[static_cast<std::size_t>(frame)] = input.keep_lmds && input.keep_lmds(frame) ? 1 : 0;
-    recorder_ = std::make_unique<RealtimeRecorder>(queues_, method.label, frames_, input.loop.closed, kept_,
-                                                   keeper, index);
+    recorder_ = std::make_unique<RealtimeRecorder>(queues_, method.label, frames_, input.loop.closed,
+                                                   input.poses.front(), kept_, keeper, index);
     recorder_->clock.period = period_;
     recorder_->deforms = first_frames_.deforms();
   }
@@ -238,9 +238,13 @@ class MethodOnClock {
     const std::int64_t start = monotonic_ns() + START_AHEAD;
     recorder_->clock.start = start;
     std::unique_ptr<ServoDevice> device;
+    const double calls_a_period = choice_.caller == ServoCaller::CALLBACK
+                                      ? 1e-9 * static_cast<double>(period_) * choice_.callback_rate_hz
+                                      : 1.0;
     if (input_.loop.closed)
-      device = std::make_unique<SimulatedServoDevice>(input_.loop, input_.poses, start, period_,
-                                                      choice_.device_steps, input_.reference_M);
+      device =
+          std::make_unique<SimulatedServoDevice>(input_.loop, input_.poses, start, period_,
+                                                 choice_.device_steps, calls_a_period, input_.reference_M);
     else
       device = std::make_unique<RecordedDevice>(input_.poses);
     ServoRole servo(profile_, aggregation_, input_, start, exchange_, queues_, *device, first_frames_,

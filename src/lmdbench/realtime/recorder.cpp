@@ -12,6 +12,13 @@ RoleRecord& role_of(RealtimeRecord& clock, RoleIndex index) {
   return clock.roles[static_cast<std::size_t>(index)];
 }
 
+LoopFrame at_rest(const Pose& X_WM) {
+  LoopFrame frame;
+  frame.position = X_WM.translation;
+  frame.orientation = X_WM.rotation;
+  return frame;
+}
+
 void add_turn(RoleRecord& role, const RoleTurn& turn) {
   role.times.add(turn.tick, turn.done);
   role.age.push_back(turn.age);
@@ -20,11 +27,12 @@ void add_turn(RoleRecord& role, const RoleTurn& turn) {
 }  // namespace
 
 RealtimeRecorder::RealtimeRecorder(RecordQueues& queues, const std::string& label, std::int64_t frames,
-                                   bool closed_loop, const std::vector<char>& kept, RunKeeper* keeper,
-                                   std::size_t method)
+                                   bool closed_loop, const Pose& start, const std::vector<char>& kept,
+                                   RunKeeper* keeper, std::size_t method)
     : queues_(queues),
       frames_(frames),
       closed_loop_(closed_loop),
+      start_(start),
       kept_(kept),
       keeper_(keeper),
       method_(method) {
@@ -101,8 +109,8 @@ void RealtimeRecorder::hold_until(std::int64_t frame, FrameSource source) {
     record.frames.push_back(held);
     note_times(UNSET, UNSET);
     if (closed_loop_) {
-      record.poses.push_back(record.poses.empty() ? Pose() : record.poses.back());
-      record.loop.push_back(record.loop.empty() ? LoopFrame() : record.loop.back());
+      record.poses.push_back(record.poses.empty() ? start_ : record.poses.back());
+      record.loop.push_back(record.loop.empty() ? at_rest(start_) : record.loop.back());
     }
     // What the device held is known if the previous tick gave its list.
     if (source == FrameSource::SKIPPED && has_last_list_ && kept_[at] != 0)

@@ -30,9 +30,10 @@ struct RecordQueues {
 class RealtimeRecorder {
  public:
   /// @param frames  of the path
+  /// @param start   X_WM before the first tick
   /// @param kept    by frame, whether to keep its LMD list
   RealtimeRecorder(RecordQueues& queues, const std::string& label, std::int64_t frames, bool closed_loop,
-                   const std::vector<char>& kept, RunKeeper* keeper, std::size_t method);
+                   const Pose& start, const std::vector<char>& kept, RunKeeper* keeper, std::size_t method);
 
   /// Takes all that has arrived.
   void drain();
@@ -56,6 +57,7 @@ class RealtimeRecorder {
   RecordQueues& queues_;
   std::int64_t frames_;
   bool closed_loop_;
+  Pose start_;
   const std::vector<char>& kept_;
   RunKeeper* keeper_;
   std::size_t method_;

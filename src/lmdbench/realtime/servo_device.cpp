@@ -3,6 +3,7 @@
 #include <lmdbench/realtime/servo_device.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lmdbench {
 
@@ -14,15 +15,16 @@ void RecordedDevice::render(const RenderedForce&, std::int64_t) {}
 
 SimulatedServoDevice::SimulatedServoDevice(const LoopChoice& loop, const std::vector<Pose>& path,
                                            std::int64_t start, std::int64_t period, std::int64_t steps,
-                                           const Vec3& reference_M)
+                                           double calls_a_period, const Vec3& reference_M)
     : path_(path),
       start_(start),
       step_ns_(period / steps),
       steps_(steps),
       delay_ns_(loop.delay_frames * period),
       mesh_(loop, 1e-9 * static_cast<double>(step_ns_), path.front(), reference_M, loop.push_n, Vec3::Zero()),
-      // Forces come at most once a period, unless a device calls faster.
-      due_(4 * (static_cast<std::size_t>(loop.delay_frames) + 2)),
+      // Four times as many as come within the delay: calls may bunch.
+      due_(4 * static_cast<std::size_t>(
+                   std::ceil(std::max(calls_a_period, 1.0) * static_cast<double>(loop.delay_frames + 2)))),
       pose_(mesh_.sensed_pose()) {}
 
 Pose SimulatedServoDevice::path_at(std::int64_t step) const {
@@ -60,12 +62,18 @@ const Pose& SimulatedServoDevice::sense(std::int64_t, std::int64_t now) {
 
 void SimulatedServoDevice::render(const RenderedForce& rendered, std::int64_t now) {
   if (due_count_ == due_.size()) {
-    // The ring is full: the oldest force is long due.
+    // The ring is full: the device calls far more often than it told.
     held_ = due_[first_due_].rendered;
     first_due_ = (first_due_ + 1) % due_.size();
     --due_count_;
   }
   due_[(first_due_ + due_count_++) % due_.size()] = {now + delay_ns_, rendered};
+  // What is due by the step that `advance_to` begins with.
+  frame_.held = held_;
+  for (std::size_t i = 0; i < due_count_; ++i) {
+    const Due& due = due_[(first_due_ + i) % due_.size()];
+    if (due.at <= now + step_ns_ / 2) frame_.held = due.rendered;
+  }
 }
 
 }  // namespace lmdbench

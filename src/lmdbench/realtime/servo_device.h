@@ -27,7 +27,8 @@ class ServoDevice {
   /// The motors' output from now on.
   virtual void render(const RenderedForce& rendered, std::int64_t now) = 0;
 
-  /// The device's motion up to the last `sense`; nullptr if unknown.
+  /// The device's motion up to the last `sense` and the force that it holds since the last
+  /// `render`; nullptr if unknown.
   virtual const LoopFrame* moved() const { return nullptr; }
 };
 
@@ -53,8 +54,11 @@ class SimulatedServoDevice final : public ServoDevice {
   /// @param start  instant of the path's first pose [ns]
   /// @param period servo period [ns]
   /// @param steps  of the simulation in a servo period
+  /// @param calls_a_period forces rendered in a servo period; more than one of a device that calls
+  ///               faster
   SimulatedServoDevice(const LoopChoice& loop, const std::vector<Pose>& path, std::int64_t start,
-                       std::int64_t period, std::int64_t steps, const Vec3& reference_M);
+                       std::int64_t period, std::int64_t steps, double calls_a_period,
+                       const Vec3& reference_M);
 
   const Pose& sense(std::int64_t period, std::int64_t now) override;
   void render(const RenderedForce& rendered, std::int64_t now) override;

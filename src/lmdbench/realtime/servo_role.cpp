@@ -54,16 +54,17 @@ const LmdSet& ServoRole::found_here(const Tick& tick, const Pose& pose) {
 
 const LmdSet& ServoRole::set_in_use(const Tick& tick, const Pose& pose) {
   if (every_frame_ != nullptr) return found_here(tick, pose);
-  exchange_.tracked.fetch();
+  const bool is_new = exchange_.tracked.fetch();
   const TrackedSet& set = exchange_.tracked.value();
   FrameRecord& frame = record_.frame;
-  frame.counters = set.counters;
+  // An update's work is of the first frame that uses its set.
+  if (is_new) frame.counters = set.counters;
   frame.lmd_count_before_reduction = static_cast<double>(set.candidates);
   frame.kept_after_reduction = static_cast<double>(set.kept_after_reduction);
   frame.tracked_count = set.tracked_count;
   frame.contact_without_direction = set.contact_without_direction;
-  record_.update_s = set.update_s;
-  record_.following_s = set.following_s;
+  record_.update_s = is_new ? set.update_s : UNSET;
+  record_.following_s = is_new ? set.following_s : UNSET;
   record_.set_age = tick.woken - std::max(set.at, start_);
   record_.search_age = tick.woken - std::max(set.searched_at, start_);
   return set.lmds;

@@ -136,8 +136,9 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
   std::vector<std::int64_t> offsets{0}, moving_bodies;
   LmdSet rows;
   for (std::int64_t frame = 0; frame < static_cast<std::int64_t>(record.frames.size()); ++frame) {
-    const LmdSet& lmds = record.lmds.at(frame);
-    rows.insert(rows.end(), lmds.begin(), lmds.end());
+    // A realtime run may have lost the list: `lmd_count` says how many LMDs the frame had.
+    if (const auto found = record.lmds.find(frame); found != record.lmds.end())
+      rows.insert(rows.end(), found->second.begin(), found->second.end());
     offsets.push_back(static_cast<std::int64_t>(rows.size()));
   }
   if (play != nullptr) {
@@ -149,7 +150,8 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
     writer.write({group + "/moving_body", "1", "which of the movers; 0: the moving mesh"},
                  std::span<const std::int64_t>(moving_bodies), {moving_bodies.size()});
   }
-  writer.write({group + "/frame_offset", "1", "frame f owns rows frame_offset[f] to frame_offset[f + 1] - 1"},
+  writer.write({group + "/frame_offset", "1",
+                "frame f owns rows frame_offset[f] to frame_offset[f + 1] - 1; none where its list was lost"},
                std::span<const std::int64_t>(offsets), {offsets.size()});
   const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
                           auto project) {

@@ -118,6 +118,9 @@ void write_scene(ResultWriter& writer, const RunResult& result) {
       write_deformation(writer, group, mesh, *prepared.input.motion.deformation->find(mesh.body.get()));
   }
   write_objects(writer, prepared.meshes);
+  writer.write({"/scene/torque_reference", "m",
+                "centre of the moving mesh's bounding box in its own frame: torque is about it"},
+               std::span<const double>(prepared.input.reference_M.data(), 3), {3});
   writer.attribute("/scene", "starts_touching", std::int64_t{prepared.starts_touching});
   writer.write({"/scene/warnings", "1", "what a reader of this result must know"}, result.warnings);
 }

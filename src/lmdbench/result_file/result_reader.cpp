@@ -357,4 +357,11 @@ std::optional<double> ResultReader::real_attribute(const std::string& object, co
   return implementation_->number_attribute<double>(object, name, H5T_FLOAT, H5T_NATIVE_DOUBLE);
 }
 
+void refuse_sweep(const ResultReader& file) {
+  if (file.has("/sweep"))
+    throw UsageError(
+        file.file().string(), "/sweep", "a sweep of lmdbench work-precision, not the result of a run",
+        "give results of lmdbench run; lmdbench report and scripts/figures/sweep.py read sweeps");
+}
+
 }  // namespace lmdbench

@@ -60,4 +60,8 @@ class ResultReader {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// A sweep has points, not methods with frames: for `lmdbench report`, scripts/figures/sweep.py.
+/// @throws UsageError for the result of one
+void refuse_sweep(const ResultReader& file);
+
 }  // namespace lmdbench

@@ -12,6 +12,9 @@ Path record_path(const Experiment& experiment, std::size_t every, const RunProgr
   if (!experiment.loop.closed)
     throw UsageError(experiment.file.string(), "/loop/kind", "the loop is open: its path is the given one",
                      "set it to closed");
+  if (experiment.realtime)
+    throw UsageError(experiment.file.string(), "/driver/kind",
+                     "a path is recorded frame by frame, not on the machine's clock", "set it to lockstep");
   Experiment alone = experiment;
   alone.methods.resize(1);
   alone.driver.repetitions = 1;

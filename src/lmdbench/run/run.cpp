@@ -30,7 +30,7 @@ void note_findings(const Experiment& experiment, RunResult& result) {
   for (const auto& [label, count] : in_contact) {
     if (count > 0)
       result.warnings.push_back(
-          fmt::format("{}: touching triangles in {} of {} frames; there an LMD keeps its last direction",
+          fmt::format("{}: triangles intersect in {} of {} frames; there an LMD keeps its last direction",
                       label, count, result.prepared.times.size()));
   }
   for (const MethodRecord& record : result.records) {
@@ -43,9 +43,13 @@ void note_findings(const Experiment& experiment, RunResult& result) {
                       "jump where one is born or dies",
                       record.label, count, record.frames.size()));
   }
-  for (std::size_t i = 0; i < result.records.size(); ++i)
-    if (const auto warning = clipping_warning(result.records[i], result.track_of(i).in_contact))
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    const PreparedProfile& profile = result.prepared.profiles[result.track_of(i).profile];
+    const bool by_maximum =
+        profile.force.largest_sum < result.prepared.input.device.device().maximum_force.value;
+    if (const auto warning = clipping_warning(result.records[i], result.track_of(i).in_contact, by_maximum))
       result.warnings.push_back(to_text(*warning));
+  }
   for (const RealtimeRecord& clock : result.clocks)
     for (std::string& warning : realtime_warnings(clock)) result.warnings.push_back(std::move(warning));
   if (experiment.driver.repetitions == 1 && !experiment.realtime)
@@ -136,8 +140,8 @@ void probe(const Experiment& experiment, const std::vector<DrivenMethod>& method
 
 }  // namespace
 
-std::optional<SceneWarning> clipping_warning(const MethodRecord& record,
-                                             const std::vector<bool>& in_contact) {
+std::optional<SceneWarning> clipping_warning(const MethodRecord& record, const std::vector<bool>& in_contact,
+                                             bool by_maximum) {
   std::int64_t contact = 0, clipped = 0;
   for (std::size_t frame = 0; frame < record.frames.size(); ++frame) {
     if (!in_contact[frame]) continue;
@@ -146,11 +150,12 @@ std::optional<SceneWarning> clipping_warning(const MethodRecord& record,
   }
   if (static_cast<double>(clipped) <= CLIPPED_SHARE * static_cast<double>(contact)) return std::nullopt;
   return SceneWarning{
-      fmt::format("{}: the device clips the force in {:.0f} % of the frames in contact ({} of {}), which "
-                  "hides what the method found",
-                  record.label, 100.0 * static_cast<double>(clipped) / static_cast<double>(contact), clipped,
-                  contact),
-      "lower /force/maximum_force_n, or take the device \"ideal\""};
+      fmt::format("{}: {} clips the force in {:.0f} % of the frames in contact ({} of {}), which hides what "
+                  "the method found",
+                  record.label, by_maximum ? "maximum_force_n" : "the device",
+                  100.0 * static_cast<double>(clipped) / static_cast<double>(contact), clipped, contact),
+      by_maximum ? "set /force/clip to device: the sum is clipped at the force of one contact"
+                 : "lower /force/maximum_force_n, or take the device \"ideal\""};
 }
 
 RunResult run_experiment(const Experiment& experiment, const RunProgress& progress,

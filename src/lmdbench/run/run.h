@@ -72,7 +72,9 @@ struct RunResult {
 inline constexpr double CLIPPED_SHARE = 0.1;
 
 /// Unset where at most CLIPPED_SHARE of the frames in contact are clipped.
-std::optional<SceneWarning> clipping_warning(const MethodRecord& record, const std::vector<bool>& in_contact);
+/// @param by_maximum the profile's own limit (`clip`: maximum) is below the device's
+std::optional<SceneWarning> clipping_warning(const MethodRecord& record, const std::vector<bool>& in_contact,
+                                             bool by_maximum);
 
 /// Reports of a run in progress: the phase ("run", "truth", "fcl", "polylines"), work done and work
 /// in all. False stops the run after the current block.

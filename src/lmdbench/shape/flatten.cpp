@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/surface.h>
+#include <lmdbench/shape/flat_regions.h>
 #include <lmdbench/shape/flatten.h>
 #include <lmdbench/shape/planar_faces.h>
 
@@ -280,9 +282,12 @@ std::vector<Vec3> put_back(const TriangleMesh& mesh, std::vector<Constraint>& co
 
 }  // namespace
 
-FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice) {
+FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice, bool flips) {
   FlatteningReport report;
   report.tolerance = choice.length(mesh);
+  if (flips)
+    report.flipped_triangles =
+        flip_flat_triangles(mesh, std::max(report.tolerance, FLATNESS * largest_coordinate(mesh.vertices)));
   if (!(report.tolerance > 0.0)) return report;
   const double flat = FLAT_ULPS * std::numeric_limits<double>::epsilon() * largest_coordinate(mesh.vertices);
   if (report.tolerance <= flat) return report;

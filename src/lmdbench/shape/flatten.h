@@ -12,10 +12,11 @@ namespace lmdbench {
 
 /// Result of `flatten`, in the mesh's unit.
 struct FlatteningReport {
-  double tolerance = 0.0;           ///< Allowed distance of vertices from planes; 0: not checked.
-  std::int64_t planes = 0;          ///< Planes that vertices were put back into.
-  std::int64_t moved_vertices = 0;  ///< Vertices whose coordinates changed.
-  double largest_move = 0.0;        ///< Distance that the farthest of them went.
+  std::int64_t flipped_triangles = 0;  ///< Close a T junction (flat_triangles.h).
+  double tolerance = 0.0;              ///< Allowed distance from planes; 0: not checked.
+  std::int64_t planes = 0;             ///< Planes that vertices were put back into.
+  std::int64_t moved_vertices = 0;     ///< Vertices whose coordinates changed.
+  double largest_move = 0.0;           ///< Distance that the farthest of them went.
 };
 
 /// Puts the vertices of a rounded mesh's planar faces back into their planes: those on two planes
@@ -33,7 +34,11 @@ struct FlatteningReport {
 /// with the fewest vertices first. Planes that are flat to the rounding of doubles do not change by
 /// a bit. Where vertices moved, `mesh.planar_tolerance` becomes the tolerance. The result does not
 /// depend on the numbering of vertices, triangles and corners.
-FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice = {});
+///
+/// Before, triangles that are flat to the tolerance, or to the rounding of doubles, and close a T
+/// junction are flipped: rounding turns some of them over.
+/// @param flips false for a mesh that deforms: its triangles gain area
+FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice = {}, bool flips = true);
 
 /// Most that a vertex may move, in tolerances.
 inline constexpr double LARGEST_MOVE = 4.0;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <system_error>
 
 namespace lmdbench {
 
@@ -21,6 +22,20 @@ double read_back(const char* begin, const char* end) {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(begin, end, value);
   return value;
+}
+
+/// Digits with which files write floats, significant ones or decimals: `%f` has 6, a double 16.
+constexpr int LEAST_DIGITS = 6, MOST_DIGITS = 16;
+/// In diagonals. A mesh so far from its frame's origin that rounding is larger is taken as it is.
+constexpr double LARGEST_TOLERANCE = 1e-4;
+
+/// Whether a coordinate is what a file says of its single-precision number.
+bool is_float_printed(double coordinate, std::chars_format format, int digits) {
+  const auto rounded = static_cast<double>(static_cast<float>(coordinate));
+  if (!std::isfinite(rounded)) return false;
+  std::array<char, 64> text{};
+  const auto [end, problem] = std::to_chars(text.data(), text.data() + text.size(), rounded, format, digits);
+  return problem == std::errc() && read_back(text.data(), end) == coordinate;
 }
 
 }  // namespace
@@ -73,21 +88,32 @@ bool is_single_precision(double coordinate) {
   if (!std::isfinite(rounded)) return false;
   std::array<char, 64> text{};
   const auto shortest = std::to_chars(text.data(), text.data() + text.size(), rounded);
-  if (read_back(text.data(), shortest.ptr) == coordinate) return true;
-  const auto nine = std::to_chars(text.data(), text.data() + text.size(), static_cast<double>(rounded),
-                                  std::chars_format::general, 9);
-  return read_back(text.data(), nine.ptr) == coordinate;
+  return read_back(text.data(), shortest.ptr) == coordinate ||
+         is_float_printed(coordinate, std::chars_format::general, 9);
+}
+
+bool is_single_precision(const TriangleMesh& mesh) {
+  const auto all = [&](const auto& holds) {
+    return std::ranges::all_of(mesh.vertices,
+                               [&](const Vec3& p) { return holds(p.x()) && holds(p.y()) && holds(p.z()); });
+  };
+  const auto are_printed = [&](std::chars_format format, int digits) {
+    return all([&](double coordinate) { return is_float_printed(coordinate, format, digits); });
+  };
+  if (all([](double coordinate) { return is_single_precision(coordinate); })) return true;
+  for (int digits = LEAST_DIGITS; digits <= MOST_DIGITS; ++digits)
+    if (are_printed(std::chars_format::general, digits) || are_printed(std::chars_format::fixed, digits))
+      return true;
+  return false;
 }
 
 double single_precision_tolerance(const TriangleMesh& mesh) {
-  const bool all = std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3& p) {
-    return is_single_precision(p.x()) && is_single_precision(p.y()) && is_single_precision(p.z());
-  });
   const double largest = largest_coordinate(mesh.vertices);
-  if (!all || !(largest > 0.0)) return 0.0;
+  if (!(largest > 0.0) || !is_single_precision(mesh)) return 0.0;
   const double ulp =
       std::exp2(std::floor(std::log2(largest))) * static_cast<double>(std::numeric_limits<float>::epsilon());
-  return SINGLE_PRECISION_ULPS * ulp;
+  const double tolerance = SINGLE_PRECISION_ULPS * ulp;
+  return tolerance <= LARGEST_TOLERANCE * bounding_box_diagonal(mesh) ? tolerance : 0.0;
 }
 
 }  // namespace lmdbench

@@ -39,8 +39,13 @@ inline constexpr double SINGLE_PRECISION_ULPS = 4.0;
 /// for one (the shortest that read back to it, or nine significant digits).
 bool is_single_precision(double coordinate);
 
+/// Whether all coordinates are, or all are single-precision numbers written with as many digits, 6
+/// to 16 significant ones or decimals.
+bool is_single_precision(const TriangleMesh& mesh);
+
 /// SINGLE_PRECISION_ULPS where every coordinate is a single-precision number, else 0: other doubles
-/// are taken as exact.
+/// are taken as exact. Also 0 where it is more than 1e-4 of the diagonal: whole numbers far from
+/// the origin may be exact, and such rounding would hide what the mesh is.
 double single_precision_tolerance(const TriangleMesh& mesh);
 
 }  // namespace lmdbench

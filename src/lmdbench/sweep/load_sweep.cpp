@@ -130,8 +130,7 @@ Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
   sweep.truth_check_frames = json["truth_check_frames"].get<std::int64_t>();
   sweep.keep_samples = json["keep_samples"].get<bool>();
   for (const Json& name : json["experiments"]) {
-    const std::filesystem::path experiment =
-        (file.parent_path() / name.get<std::string>()).lexically_normal();
+    const std::filesystem::path experiment = shortened(file.parent_path() / name.get<std::string>());
     for (std::size_t i = 0; i < json["series"].size(); ++i) {
       const Json& series = json["series"][i];
       for (const Axes& axes :

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
+#include <lmdbench/drivers/run_keeper.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/errors.h>
 #include <lmdbench/metrics/step_numbers.h>
@@ -304,6 +305,9 @@ SweepResult sweep_to_file(const Sweep& sweep, const std::filesystem::path& file,
   refuse_unsafe_output(file, {.what = "result file", .is_ours = &is_own_result}, inputs, "--out");
   refuse_unsafe_output(journal_of(file), {.what = "journal", .is_ours = &is_own_journal}, inputs, "--out");
   ResultWriter writer(file);
+  if (RunKeeper::measured_frames(writer.part()) > 0)
+    throw EnvironmentError(writer.part().part_name().string(), "", "holds what an interrupted run measured",
+                           "go on with it by `lmdbench run --resume`, or remove the file");
   struct RemovePart {
     std::filesystem::path part;
     ~RemovePart() {

@@ -279,6 +279,7 @@ void export_polylines(Exporter& exporter, const ResultReader& result, const std:
 
 std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& folder,
                                     std::size_t most_frames) {
+  refuse_sweep(result);
   const ResultScene result_scene = scene_of_result(result);
   Exporter exporter(result.file(), folder);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
 
@@ -304,11 +305,54 @@ TEST(Certified, FindsTheTruthOfMeshesAsSmallAsRoundingOfTheOther) {
   EXPECT_GT(comparison.lmds(), 600u);
 }
 
+/// A cutoff of no limit saves nothing, but costs nothing either: pairs are told apart all the same.
+TEST(Certified, AHugeCutoffComparesNoMoreTriangles) {
+  const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 12, 8), 0.0);
+  std::vector<std::uint64_t> compared;
+  for (const double cutoff : {1e2, 1e9}) {
+    Scene wide = scene;
+    wide.cutoff = cutoff;
+    LmdSet lmds;
+    WorkCounters counters;
+    Certified(wide).search(moved(3.0, 0.5, 1.9), lmds, counters);
+    EXPECT_FALSE(lmds.empty());
+    compared.push_back(counters[Certified::Counter::TRIANGLE_DISTANCES]);
+  }
+  EXPECT_LE(compared[1], compared[0]);
+}
+
 TEST(Certified, FindsEverythingWithoutCutoff) {
   const Scene scene = make_scene(make_blob(1.0, 0.3, 2), make_torus(1.0, 0.4, 12, 8), 0.0);
   KernelComparison comparison;
   for (const double x : {0.0, 0.2, 3.0}) comparison.check(scene, moved(x, 0.5, 1.9), 1e3);
   EXPECT_GT(comparison.lmds(), 3u);
+}
+
+/// Up to the sizes that readers take: beyond, single precision overflows or vanishes.
+TEST(Certified, FindsTheSameAtTheLeastAndTheLargestSize) {
+  std::mt19937_64 random(21);
+  const TriangleMesh blob = make_blob(0.25, 0.06, 2), torus = make_torus(0.3, 0.1, 12, 8);
+  const Scene unscaled = make_scene(blob, torus, 0.1);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 5; ++i) poses.push_back(grazing_pose(unscaled, 0.01, random));
+  for (const double scale : {0x1p-49, 0x1p59}) {
+    const Scene scene = make_scene(scaled(blob, scale), scaled(torus, scale), 0.1 * scale);
+    ASSERT_LE(largest_coordinate(scene.moving->surface().mesh.vertices), LARGEST_COORDINATE);
+    ASSERT_GE(bounding_box_diagonal(scene.moving->surface().mesh), SMALLEST_DIAGONAL);
+    for (const Pose& pose : poses) {
+      const Pose far{scale * pose.translation, pose.rotation};
+      LmdSet expected, found;
+      WorkCounters counters;
+      Certified(unscaled).search(pose, expected, counters);
+      Certified(scene).search(far, found, counters);
+      EXPECT_FALSE(expected.empty());
+      ASSERT_EQ(found.size(), expected.size()) << scale;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_TRUE(same_feature_pair(found[i], expected[i])) << scale;
+        EXPECT_EQ(found[i].distance, scale * expected[i].distance) << scale;
+      }
+    }
+  }
 }
 
 TEST(Certified, IsEmptyBeyondTheCutoff) {

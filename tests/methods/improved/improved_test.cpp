@@ -186,6 +186,24 @@ TEST_F(ImprovedTest, TrackingFollowsAMotionToTheMinimaOfTheNewPose) {
   EXPECT_GE(static_cast<double>(followed), 0.9 * static_cast<double>(total));
 }
 
+/// Of pairs at one distance the one that is there stays: what the reduction left stays, too.
+TEST_F(ImprovedTest, FlatGridsAtRestKeepTheirLmds) {
+  const TriangleMesh slab = make_box({0.08, 0.08, 0.01}, {8, 8, 1});
+  const Scene scene = make_scene(slab, slab, 0.005);
+  const Pose pose{Vec3(0.0, 0.0, 0.012)};
+  for (const Reduction reduction : {Reduction::PUBLISHED, Reduction::LOSS_FREE}) {
+    Improved improved(scene, with(Visibility::OFF, reduction));
+    LmdSet lmds = lmds_at(improved, pose);
+    improved.track(pose, lmds, counters_);
+    const LmdSet first = lmds;
+    EXPECT_GE(first.size(), 2u);
+    for (int frame = 0; frame < 3; ++frame) {
+      improved.track(pose, lmds, counters_);
+      testing::expect_like_lmds(lmds, first, 0.0);
+    }
+  }
+}
+
 TEST_F(ImprovedTest, TheCacheSavesDistancesOfNeighbours) {
   on_poses(1, [&](const Scene& scene, const Pose& pose, const LmdSet&) {
     Improved improved(scene, with(Visibility::OFF, Reduction::PUBLISHED));
@@ -311,7 +329,8 @@ LmdSet track_without_memory(const Scene& scene, const Pose& pose, LmdSet lmds, b
       cache_hits += !is_new;
       return TrackedPair{entry->second.first, published && entry->second.second != number};
     };
-    const WalkEnd end = walk_to_minimum(moving, fixed, lmd, evaluate, steps);
+    const Lmd there = evaluate(lmd.triangle_moving, lmd.triangle_fixed).lmd;
+    const WalkEnd end = walk_to_minimum(moving, fixed, lmd, there, evaluate, steps);
     ++number;
     if (!end.is_duplicate && (published || !holds(kept, end.lmd))) kept.push_back(end.lmd);
   }

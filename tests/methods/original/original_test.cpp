@@ -201,6 +201,17 @@ TEST_F(OriginalTest, AVertexPairIsOneLmd) {
   EXPECT_GT(work_[Original::Counter::DROPPED_DUPLICATES], 0u);
 }
 
+/// Decision E12: they have no direction of their own.
+TEST_F(OriginalTest, FeaturePointsThatMeetIntersect) {
+  const Scene scene = make_scene(make_box({0.5, 0.5, 0.5}), make_box({0.5, 0.5, 0.5}), 0.05);
+  for (const double gap : {0.0, 0.01}) {
+    const LmdSet lmds = search(scene, Pose{Vec3(0.5, 0.5, 0.5 + gap)}, 0.1);
+    ASSERT_EQ(lmds.size(), 1u);
+    EXPECT_EQ(lmds[0].intersecting, gap == 0.0);
+    EXPECT_EQ(lmds[0].direction.hasNaN(), gap == 0.0);
+  }
+}
+
 /// The defect that the paper mends: on a large triangle the nearest feature points are far away.
 TEST_F(OriginalTest, MissesWhatALargeTriangleHides) {
   const Scene scene = make_scene(make_sphere(0.002, 1), make_box({0.1, 0.1, 0.1}), 0.002);
@@ -259,6 +270,25 @@ TEST(FaceNeighbours, AreTheFaceAndWhatLiesAcrossItsEdges) {
   }
   const TriangleMesh alone{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}};
   EXPECT_EQ(FaceNeighbours(build_surface(alone)).of(0).size(), 1u) << "nothing is across a boundary";
+}
+
+/// Of pairs at one distance the one that is there stays: LMDs of flat grids do not wander.
+TEST_F(OriginalTest, FlatGridsAtRestKeepTheirLmds) {
+  const TriangleMesh slab = make_box({0.08, 0.08, 0.01}, {8, 8, 1});
+  const Scene scene = make_scene(slab, slab, 0.005);
+  const Pose pose{Vec3(0.0, 0.0, 0.012)};
+  for (const int points : {7, 25}) {
+    OriginalOptions options;
+    options.feature_points = points;
+    Original original(scene, options);
+    LmdSet lmds = lmds_at(original, pose);
+    const LmdSet found = lmds;
+    EXPECT_GE(found.size(), 81u);
+    for (int frame = 0; frame < 3; ++frame) {
+      original.track(pose, lmds, work_);
+      testing::expect_like_lmds(lmds, found, 0.0);
+    }
+  }
 }
 
 TEST_F(OriginalTest, TrackingNeverLengthensAPairAtRest) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Plugins that break rules, each this file with another KIND. All have some good frames, which
-// shows the fate of the others. GOOD and PUSHES do nothing wrong.
+// shows the fate of the others. GOOD, PUSHES and SAYS_GOODBYE do nothing wrong.
 #include <lmdbench/plugin/lmdbench_method.h>
 
 #include <unistd.h>
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -35,6 +36,8 @@
 #define NO_FORCE 14
 #define NO_PROMISE 15
 #define PUSHES 16
+#define BAD_SCHEMA 17
+#define SAYS_GOODBYE 18
 
 namespace {
 
@@ -119,6 +122,9 @@ std::int32_t search(void* instance, const double* X, lmdbench_contact* contacts,
 
 void destroy(void* instance) {
   delete static_cast<Instance*>(instance);
+  const char* const file = std::getenv("LMDBENCH_GOODBYE");
+  if (KIND != SAYS_GOODBYE || file == nullptr) return;
+  if (std::FILE* const written = std::fopen(file, "w")) std::fclose(written);
 }
 
 /// 2 N along z, at the origin of B's frame.
@@ -145,6 +151,8 @@ __attribute__((constructor)) void set_fast_math() {
 }
 #endif
 
+constexpr const char* NO_SCHEMA = R"({"x": {"type": "nonsense", "description": "none", "default": 1}})";
+
 constexpr lmdbench_method METHOD = {sizeof(lmdbench_method),
                                     NAME,
                                     "1",
@@ -153,7 +161,7 @@ constexpr lmdbench_method METHOD = {sizeof(lmdbench_method),
                                     : KIND == NO_PROMISE || KIND == PUSHES ? LMDBENCH_PROMISE_FORCE_ONLY
                                                                            : LMDBENCH_PROMISE_APPROXIMATION,
                                     0,
-                                    nullptr,
+                                    KIND == BAD_SCHEMA ? NO_SCHEMA : nullptr,
                                     create,
                                     search,
                                     destroy,

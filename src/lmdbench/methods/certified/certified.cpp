@@ -314,8 +314,10 @@ void Certified::find(const Pose& X_WM, WorkCounters& counters, Join&& join) {
   const double coordinates =
       std::max({transform.point(hierarchy_moving_.origin).cwiseAbs().maxCoeff() + radius, of_fixed,
                 pair.tolerance.coordinates});
+  // Beyond so many sizes nothing is kept, and touch would be longer than edges.
+  const double near = std::min(scene_.cutoff, MOST_SIZES * (radius + fixed_.hierarchy.radius));
   const double where_anything_is_near =
-      of_fixed + radius + scene_.cutoff +
+      of_fixed + radius + near +
       std::max(radius, about_origin + std::numbers::sqrt3 * shape_moving_.regions.extent);
   // The same at all poses at which anything is near, so that what was kept stays valid.
   const double touch =

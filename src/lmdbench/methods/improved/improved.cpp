@@ -179,7 +179,8 @@ void Improved::track_with(Cache& cache, const Pose& X_WM, LmdSet& lmds, WorkCoun
       return TrackedPair{entry.lmd,
                          options_.reduction == Reduction::PUBLISHED && entry.seen_by_other(number)};
     };
-    const WalkEnd end = walk_by(lmd, look, counters[Counter::TRACKING_STEPS]);
+    const Lmd there = cached(lmd.triangle_moving, lmd.triangle_fixed).lmd;
+    const WalkEnd end = walk_by(lmd, there, look, counters[Counter::TRACKING_STEPS]);
     ++number;
     const bool drop = end.is_duplicate || (options_.reduction == Reduction::LOSS_FREE &&
                                            std::any_of(kept_.begin(), kept_.end(), [&](const Lmd& other) {

@@ -41,7 +41,8 @@ inline ShadedTriangle to_world(const ShadedTriangle& t, const RigidTransform& X_
 ///
 /// Decision E6, ours: "using the vertex normals for projection" means that each corner moves along
 /// its vertex normal to the other plane. A normal parallel to that plane or away from it projects
-/// nowhere; then this side culls nothing. `ORTHOGONAL` projects along the plane's normal; `OFF`
+/// nowhere; then this side culls nothing, nor does it where a corner lies in the plane:
+/// triangles of one plane may meet along it. `ORTHOGONAL` projects along the plane's normal; `OFF`
 /// culls nothing. No policy is conservative on every mesh: reports state each one's recall.
 bool see_each_other(const ShadedTriangle& a, const ShadedTriangle& b, Visibility visibility);
 

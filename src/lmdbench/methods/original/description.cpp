@@ -53,7 +53,9 @@ const MethodDescription& original_method() {
             {{"type", "boolean"},
              {"description", "whether LMDs with the same pair of feature points are one (decision E13)"}}},
            {"literal_g3",
-            {{"type", "boolean"}, {"description", "ablation: read the inequality of G3 as printed"}}}},
+            {{"type", "boolean"},
+             {"description",
+              "ablation: read the inequality of G3 as printed; line_cone says nothing then"}}}},
           OriginalOptions{}),
       .counters = traversal_counters_and<Counter>(
           {{Counter::LEAF_PAIRS, "leaf_pairs", "triangle pairs that reached the leaf tests",

@@ -4,11 +4,11 @@
 #include <lmdbench/lmd/local_tracking.h>
 #include <lmdbench/lmd/search_counters.h>
 #include <lmdbench/lmd/well_formed.h>
-#include <lmdbench/methods/original/feature_points.h>
 #include <lmdbench/methods/original/original.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -94,27 +94,23 @@ Original::Original(Scene of_pair, const OriginalOptions& options)
   faces_fixed_.emplace(fixed_);
 }
 
-Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
-                                 WorkCounters& counters) const {
+template <class Of>
+Lmd Original::by_feature_points(Of&& of) const {
   switch (options_.feature_points) {
     case 3:
-      return nearest_of<3>(X_WM, t_moving, t_fixed, counters);
+      return of.template operator()<3>();
     case 13:
-      return nearest_of<13>(X_WM, t_moving, t_fixed, counters);
+      return of.template operator()<13>();
     case 25:
-      return nearest_of<25>(X_WM, t_moving, t_fixed, counters);
+      return of.template operator()<25>();
     default:
-      return nearest_of<7>(X_WM, t_moving, t_fixed, counters);
+      return of.template operator()<7>();
   }
 }
 
 template <std::size_t N>
-Lmd Original::nearest_of(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
-                         WorkCounters& counters) const {
-  const FeaturePoints<N> a = feature_points<N>(X_WM.triangle(moving_.mesh.triangle(t_moving)));
-  const FeaturePoints<N> b = feature_points<N>(fixed_.mesh.triangle(t_fixed));
-  const FeaturePointPair nearest = nearest_feature_points<N>(a, b);
-  counters[Counter::FEATURE_POINT_DISTANCES] += N * N;
+Lmd Original::lmd_of(const FeaturePoints<N>& a, const FeaturePoints<N>& b, const FeaturePointPair& nearest,
+                     std::int32_t t_moving, std::int32_t t_fixed) const {
   Lmd lmd;
   lmd.distance = std::sqrt(nearest.squared_distance);
   lmd.point_moving = a[nearest.index_a];
@@ -123,7 +119,37 @@ Lmd Original::nearest_of(const RigidTransform& X_WM, std::int32_t t_moving, std:
   lmd.feature_fixed = fixed_.feature_of(t_fixed, part_of_feature_point<N>(nearest.index_b));
   lmd.triangle_moving = t_moving;
   lmd.triangle_fixed = t_fixed;
+  lmd.intersecting = lmd.distance == 0.0;
   return lmd;
+}
+
+Lmd Original::feature_point_pair(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
+                                 WorkCounters& counters) const {
+  return by_feature_points([&]<std::size_t N>() {
+    const FeaturePoints<N> a = feature_points<N>(X_WM.triangle(moving_.mesh.triangle(t_moving)));
+    const FeaturePoints<N> b = feature_points<N>(fixed_.mesh.triangle(t_fixed));
+    counters[Counter::FEATURE_POINT_DISTANCES] += N * N;
+    return lmd_of<N>(a, b, nearest_feature_points<N>(a, b), t_moving, t_fixed);
+  });
+}
+
+Lmd Original::moved_point_pair(const RigidTransform& X_WM, const Lmd& lmd, WorkCounters& counters) const {
+  return by_feature_points([&]<std::size_t N>() {
+    const FeaturePoints<N> a = feature_points<N>(X_WM.triangle(moving_.mesh.triangle(lmd.triangle_moving)));
+    const FeaturePoints<N> b = feature_points<N>(fixed_.mesh.triangle(lmd.triangle_fixed));
+    FeaturePointPair nearest{std::numeric_limits<double>::infinity(), 0, 0};
+    for (std::size_t i = 0; i < N; ++i) {
+      if (moving_.feature_of(lmd.triangle_moving, part_of_feature_point<N>(i)) != lmd.feature_moving)
+        continue;
+      for (std::size_t j = 0; j < N; ++j) {
+        if (fixed_.feature_of(lmd.triangle_fixed, part_of_feature_point<N>(j)) != lmd.feature_fixed) continue;
+        const double squared_distance = (a[i] - b[j]).squaredNorm();
+        ++counters[Counter::FEATURE_POINT_DISTANCES];
+        if (squared_distance < nearest.squared_distance) nearest = {squared_distance, i, j};
+      }
+    }
+    return lmd_of<N>(a, b, nearest, lmd.triangle_moving, lmd.triangle_fixed);
+  });
 }
 
 void Original::search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
@@ -168,7 +194,9 @@ void Original::track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
     return (&surface == &moving_ ? *faces_moving_ : *faces_fixed_).of(feature.index);
   };
   for (Lmd& lmd : lmds)
-    lmd = walk_to_minimum(moving_, fixed_, lmd, evaluate, counters[Counter::TRACKING_STEPS], neighbours).lmd;
+    lmd = walk_to_minimum(moving_, fixed_, lmd, moved_point_pair(transform, lmd, counters), evaluate,
+                          counters[Counter::TRACKING_STEPS], neighbours)
+              .lmd;
   drop_duplicates(lmds, options_.merge_duplicates, counters);
 }
 

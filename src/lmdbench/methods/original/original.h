@@ -8,6 +8,7 @@
 #include <lmdbench/mesh/feature.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/methods/original/face_neighbours.h>
+#include <lmdbench/methods/original/feature_points.h>
 #include <lmdbench/methods/original/options.h>
 #include <lmdbench/snch/traversal.h>
 
@@ -78,11 +79,16 @@ class Original : public Method {
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override;
 
  private:
+  /// @param of template <std::size_t N> () -> Lmd, called with the option's number of points
+  template <class Of>
+  Lmd by_feature_points(Of&& of) const;
   template <std::size_t N>
-  Lmd nearest_of(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
-                 WorkCounters& counters) const;
+  Lmd lmd_of(const FeaturePoints<N>& a, const FeaturePoints<N>& b, const FeaturePointPair& nearest,
+             std::int32_t t_moving, std::int32_t t_fixed) const;
   Lmd feature_point_pair(const RigidTransform& X_WM, std::int32_t t_moving, std::int32_t t_fixed,
                          WorkCounters& counters) const;
+  /// The nearest points of an LMD's own features, on its own triangles, at another pose.
+  Lmd moved_point_pair(const RigidTransform& X_WM, const Lmd& lmd, WorkCounters& counters) const;
 
   Scene scene_;
   OriginalOptions options_;

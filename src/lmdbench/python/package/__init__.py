@@ -59,8 +59,9 @@ class Mesh:
 
     Mesh(file)                  OFF; PLY, OBJ, STL or glTF 2 where the build has assimp. Vertices of one position are
                                 welded, those without triangles left out.
-    Mesh(vertices, triangles)   (V, 3) metres and (T, 3) whole numbers, counter-clockwise seen from outside; taken as they
-                                are, so that features count the caller's rows.
+    Mesh(vertices, triangles)   (V, 3) metres and (T, 3) whole numbers, counter-clockwise seen from outside; features count
+                                the caller's rows. A triangle without area that closes a T junction is flipped with the
+                                one beside it, and both keep their rows: see `triangles` and `findings`.
 
     planar_tolerance: how far vertices of one plane may have left it, and are put back: "auto" (what single-precision
     coordinates leave), "off", metres ("1e-6") or a share of the diagonal ("0.0001%"). name: for messages.
