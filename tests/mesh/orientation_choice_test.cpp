@@ -81,7 +81,8 @@ TEST(OrientOutward, PiecesThatTouchAreEnclosedOnlyIfTheyAreInside) {
   } scenes[] = {
       {merged(translated(box, {-0.5, 0, 0}), translated(box, {0.5, 0, 0})), "face on face"},
       {merged(translated(box, {-0.5, 0.3, 0}), translated(small, {0.25, 0, 0})), "a small one on a face"},
-      {merged(nook, translated(make_box({0.5, 0.5, 0.5}), {0.25, 1, 0.25})), "in the nook of an L"},
+      {merged(nook, translated(make_box({0.5, 0.5, 0.5}), {0.25, bounding_box_centre(nook).y(), 0.25})),
+       "in the nook of an L"},
       {merged(box, inside_out(translated(small, {0.25, 0, 0}))), "a cavity up to a face"},
       {merged(box, inside_out(translated(small, {0.25, 0.25, 0.25}))), "a cavity up to a corner"}};
   for (const auto& [sound, what] : scenes) {

@@ -22,6 +22,29 @@ namespace {
 
 using ::testing::ElementsAre;
 
+/// A sheet with two sides: what is left of normals that cancel is rounding, no direction.
+TEST(Surface, NormalsThatCancelHaveNoOuterSide) {
+  TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                     {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {3, 2, 1}}};
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  for (Vec3& vertex : sheet.vertices) vertex = turn * vertex;
+  const Surface surface = build_surface(sheet);
+  for (std::int32_t v = 0; v < 4; ++v) {
+    EXPECT_TRUE(surface.vertex_normal(v).isZero(0.0)) << v;
+    EXPECT_FALSE(surface.has_outer_side({FeatureKind::VERTEX, v})) << v;
+  }
+  std::size_t sides = 0;
+  for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e) {
+    const auto around = surface.adjacency.edge_triangles[e];
+    const Vec3 &one = surface.face_normals[static_cast<std::size_t>(around[0])],
+               &other = surface.face_normals[static_cast<std::size_t>(around[1])];
+    if (one.dot(other) > 0.0) continue;  // a diagonal
+    ++sides;
+    EXPECT_TRUE(surface.pseudo_normal({FeatureKind::EDGE, e}).isZero(0.0)) << e;
+  }
+  EXPECT_EQ(sides, 4U);
+}
+
 TEST(TriangleNormalTest, IsTheSameAtEveryScale) {
   const Triangle triangle{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   for (const double scale : {0x1p-1070, 1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e300}) {

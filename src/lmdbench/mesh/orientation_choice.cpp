@@ -3,6 +3,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/mesh/adjacency.h>
 #include <lmdbench/mesh/orientation_choice.h>
+#include <lmdbench/mesh/triangle_normal.h>
 #include <lmdbench/mesh/winding_number.h>
 
 #include <Eigen/Geometry>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -119,28 +121,31 @@ double relative_volume(const TriangleMesh& mesh, const Piece& piece) {
   return area > 0.0 ? volume / std::pow(area, 1.5) : 0.0;
 }
 
-/// Whether a closed piece encloses another one, which may touch it from within or from outside: a
-/// point of the other one tells that is not on it, where the winding number is no integer.
-bool encloses(const TriangleMesh& mesh, const Piece& outer, const Piece& inner) {
-  constexpr double WHOLE = 0.01;         // on a face it is a half, at a box's corner an eighth
-  constexpr std::size_t LOOKED_AT = 64;  // of large pieces; one that has none elsewhere is beside
-  if (!outer.closed || !outer.box.contains(inner.box)) return false;
-  const std::size_t step = (inner.triangles.size() + LOOKED_AT - 1) / LOOKED_AT;
-  for (std::size_t i = 0; i < inner.triangles.size(); i += step) {
-    const Triangle c = mesh.triangle(inner.triangles[i]);
-    for (const Vec3& point : {c[0], Vec3((c[0] + c[1] + c[2]) / 3.0)}) {
-      const double turns = std::abs(winding_number(point, mesh, outer.triangles));
-      if (std::abs(turns - std::round(turns)) < WHOLE) return turns > 0.5;
+/// A point inside a closed piece, whichever way it is turned, near one of its triangles. A corner
+/// may lie on another piece that it touches; this does not.
+std::optional<Vec3> point_inside(const TriangleMesh& mesh, const Piece& piece) {
+  constexpr double DEPTH = 1e-6;         // in diagonals
+  constexpr std::size_t LOOKED_AT = 64;  // triangles of a piece that is thinner
+  const std::size_t step = (piece.triangles.size() + LOOKED_AT - 1) / LOOKED_AT;
+  for (std::size_t i = 0; i < piece.triangles.size(); i += step) {
+    const Triangle c = mesh.triangle(piece.triangles[i]);
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 point =
+          (c[0] + c[1] + c[2]) / 3.0 + side * DEPTH * piece.box.diagonal().norm() * triangle_normal(c);
+      if (std::abs(winding_number(point, mesh, piece.triangles)) > 0.5) return point;
     }
   }
-  return false;
+  return std::nullopt;
 }
 
-/// Whether an odd number of other closed pieces enclose this one.
+/// Whether an odd number of other closed pieces enclose this one. Pieces may touch.
 bool is_cavity(const TriangleMesh& mesh, const std::vector<Piece>& pieces, std::size_t which) {
+  const std::optional<Vec3> point = point_inside(mesh, pieces[which]);
   bool odd = false;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (i != which && encloses(mesh, pieces[i], pieces[which])) odd = !odd;
+  for (std::size_t i = 0; point && i < pieces.size(); ++i)
+    if (i != which && pieces[i].closed && pieces[i].box.contains(pieces[which].box) &&
+        std::abs(winding_number(*point, mesh, pieces[i].triangles)) > 0.5)
+      odd = !odd;
   return odd;
 }
 
