@@ -83,7 +83,8 @@ def draw(runs, directory):
             force = method.read("force")
             options = {"color": style.colour_of(method), "label": label, "linewidth": 0.6}
             axes[0, column].plot(time[window], method.force_magnitude()[window], **options)
-            spectrum = np.abs(np.fft.rfft(force * np.hanning(force.shape[0])[:, None], axis=0)) * 2 / np.sum(np.hanning(force.shape[0]))
+            taper = np.hanning(force.shape[0])[:, None]
+            spectrum = np.abs(np.fft.rfft(force * taper, axis=0)) * 2 / np.sum(taper)
             axes[1, column].loglog(np.fft.rfftfreq(force.shape[0], 1 / rate)[1:],
                                    np.linalg.norm(spectrum, axis=1)[1:], **options)
             stiffness = method.read("effective_stiffness")

@@ -23,6 +23,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 from lmdbench_results import Result, ResultError, law, run_script
+from mesh_drawing import rotation
 from tables import table_text
 
 REFERENCE = "certified"
@@ -35,9 +36,7 @@ Pair = collections.namedtuple("Pair", "distance force point")
 
 def turned(vector, orientation):
     """(N, 3) of a vector by (N, 4) unit quaternions, w last."""
-    axis, w = orientation[:, :3], orientation[:, 3:]
-    once = np.cross(axis, vector)
-    return vector + 2 * (w * once + np.cross(axis, once))
+    return np.einsum("ijn,j->ni", rotation(*orientation.T), vector)
 
 
 def travel(position, orientation, radius):

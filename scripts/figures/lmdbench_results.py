@@ -192,9 +192,7 @@ class Result:
             return "format 1 did not hold it: run the experiment again"
         record = getattr(self, "experiment", {}).get("record", {})
         name = path.split("/")[-1]
-        kind = "timings" if name.endswith("_time") else "counters" if "counters/" in path else "frames"
-        if name == "torque" and path.startswith("/methods/"):
-            return "run the experiment again with --set /record/torque=true"
+        kind = "torque" if name == "torque" else "timings" if name.endswith("_time") else "counters" if "counters/" in path else "frames"
         if path.startswith("/methods/") and record.get(kind) is False:
             return f"the run left it out: run the experiment again with --set /record/{kind}=true"
         return "run the experiment again"
@@ -329,17 +327,17 @@ def truth_of(method):
 
 def reference_force(method):
     """(K) frames and (K) length of the true rendered force under a method's law, at its poses [N]; empty without a truth probe."""
-    dataset = f"{method.reference()}/force_{method.force_law}"
+    group = method.reference()
+    dataset = f"{group}/force_{method.force_law}"
     if not method.result.has(dataset):
         return np.empty(0, dtype=int), np.empty(0)
     force = np.linalg.norm(method.result.read(dataset), axis=1)
-    group = method.reference()
     if method.result.has(f"{group}/contact_without_direction"):
         without = method.result.read(f"{group}/contact_without_direction") > 0
     else:  # results before 1.0 do not tell triangles that touch from those that intersect
         without = method.result.read(f"{group}/minimum_distance") == 0.0
     force[without] = np.nan  # no direction, so no force is the true one
-    return method.result.read(f"{method.reference()}/frame").astype(int), force
+    return method.result.read(f"{group}/frame").astype(int), force
 
 
 def true_forces(methods):

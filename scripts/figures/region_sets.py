@@ -9,7 +9,7 @@ import numpy as np
 
 from lmdbench_results import median, quantile, text
 from polylines import Lines
-from mesh_drawing import placed, read_off
+from mesh_drawing import placed, read_off, rotation
 from region_rules import FAILS, HOLDS, mean_edges, mesh, tolerance, usable
 from tables import shown
 
@@ -82,8 +82,7 @@ def distance_to_triangles(point, corners):
 
 def rotated_back(quaternion, vector):
     """By the inverse of a unit quaternion x, y, z, w."""
-    v, w = -np.asarray(quaternion[:3]), quaternion[3]
-    return vector + 2 * np.cross(v, np.cross(v, vector) + w * vector)
+    return vector @ rotation(*quaternion)
 
 
 def body(result, name, meshes):
