@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/obj_file.h>
 #include <lmdbench/catalogue/polygon_fan.h>
@@ -8,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <numeric>
 #include <vector>
 
 namespace lmdbench {
@@ -17,9 +16,6 @@ namespace {
 /// Keywords of skipped lines.
 constexpr std::array<std::string_view, 11> LEFT_OUT{"vn", "vt", "vp",     "g",      "o", "s",
                                                     "l",  "p",  "mtllib", "usemtl", "mg"};
-
-constexpr const char* CONVERT =
-    "cut polygons into triangles where they were made, or convert the file to OFF";
 
 Vec3 read_position(LineReader& lines) {
   Vec3 position;
@@ -46,6 +42,7 @@ TriangleMesh parse_obj(std::string_view text, const std::string& file) {
   LineReader lines(file, text);
   TriangleMesh mesh;
   std::vector<Vec3> positions, corners;
+  std::vector<std::int32_t> polygon;
   while (lines.next_line()) {
     if (lines.ends_with("\\") || lines.ends_with("\\\r"))
       lines.fail("the line is continued on the next", "join the two lines");
@@ -63,17 +60,11 @@ TriangleMesh parse_obj(std::string_view text, const std::string& file) {
     corners.clear();
     while (!lines.at_line_end()) corners.push_back(read_corner(lines, lines.word(), positions));
     if (corners.size() < 3) lines.fail(fmt::format("a face of {} corners", corners.size()));
-    const std::optional<std::size_t> first_corner = fan_corner(corners);
-    if (!first_corner) lines.fail("a polygon that no fan of triangles fills", CONVERT);
-    std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(*first_corner));
     // Every face has its own corners, as in assimp: import welds them in the order of use.
-    const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+    polygon.resize(corners.size());
+    std::iota(polygon.begin(), polygon.end(), static_cast<std::int32_t>(mesh.vertices.size()));
     mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
-    for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(corners.size()); ++k)
-      mesh.triangles.push_back({first, first + k, first + k + 1});
-    if (static_cast<std::int64_t>(mesh.triangles.size()) > limit_of(Limit::TRIANGLES))
-      lines.fail(fmt::format("more triangles than the limit of {}", limit_of(Limit::TRIANGLES)),
-                 "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
+    add_polygon(polygon, lines, mesh);
   }
   return mesh;
 }

@@ -3,7 +3,6 @@
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
-#include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/ply_check.h>
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,37 +40,20 @@ void read_vertices(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
 void read_faces(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
   const auto vertex_count = static_cast<std::int64_t>(mesh.vertices.size());
   std::vector<std::int32_t> corners;
-  std::vector<Vec3> places;
   for (std::int64_t f = 0; f < count; ++f) {
     if (!lines.next_line())
       lines.fail(fmt::format("the file ends after {} of {} faces", f, count), CUT_SHORT);
     const auto corner_count = lines.number<std::int64_t>("a face's number of corners");
     if (corner_count < 1) lines.fail(fmt::format("face {} has {} corners", f, corner_count));
-    if (corner_count > limit_of(Limit::POLYGON_CORNERS))
-      lines.fail(fmt::format("face {} is a polygon of {} corners, above the limit of {}", f, corner_count,
-                             limit_of(Limit::POLYGON_CORNERS)),
-                 "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
     corners.clear();
-    places.clear();
     for (std::int64_t k = 0; k < corner_count; ++k) {
       const auto corner = lines.number<std::int64_t>("a vertex index");
       if (corner < 0 || corner >= vertex_count)
         lines.fail(fmt::format("face {} names vertex {}, but there are {} vertices", f, corner, vertex_count),
                    "vertices are counted from 0; correct the index");
       corners.push_back(static_cast<std::int32_t>(corner));
-      places.push_back(mesh.vertices[static_cast<std::size_t>(corner)]);
     }
-    if (corner_count < 3) continue;
-    const std::optional<std::size_t> first = corner_count == 3 ? 0 : fan_corner(places);
-    if (!first)
-      lines.fail(fmt::format("face {} is a polygon that no fan of triangles fills", f),
-                 "cut it into triangles where it was made");
-    std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(*first));
-    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-      mesh.triangles.push_back({corners[0], corners[k], corners[k + 1]});
-    if (static_cast<std::int64_t>(mesh.triangles.size()) > limit_of(Limit::TRIANGLES))
-      lines.fail(fmt::format("more triangles than the limit of {}", limit_of(Limit::TRIANGLES)),
-                 "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
+    if (corner_count >= 3) add_polygon(corners, lines, mesh);
   }
 }
 

@@ -1,16 +1,22 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/polygon_fan.h>
 
 #include <Eigen/Geometry>
 
-namespace lmdbench {
+#include <cstddef>
+#include <optional>
 
-std::optional<std::size_t> fan_corner(std::span<const Vec3> corners) {
-  const std::size_t count = corners.size();
+namespace lmdbench {
+namespace {
+
+/// The first corner from which no triangle of the fan folds.
+/// @param at place of a corner
+std::optional<std::size_t> fan_corner(std::size_t count, const auto& at) {
+  if (count == 3) return 0;
   const auto area_of = [&](std::size_t first, std::size_t k) -> Vec3 {
-    const Vec3 &a = corners[first], &b = corners[(first + k) % count], &c = corners[(first + k + 1) % count];
-    return (b - a).cross(c - a);
+    return (at(first + k) - at(first)).cross(at(first + k + 1) - at(first));
   };
   Vec3 area = Vec3::Zero();
   for (std::size_t k = 1; k + 1 < count; ++k) area += area_of(0, k);
@@ -21,6 +27,27 @@ std::optional<std::size_t> fan_corner(std::span<const Vec3> corners) {
     if (!folds) return first;
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+void add_polygon(std::span<const std::int32_t> polygon, const LineReader& lines, TriangleMesh& mesh) {
+  const std::size_t count = polygon.size();
+  if (static_cast<std::int64_t>(count) > limit_of(Limit::POLYGON_CORNERS))
+    lines.fail(fmt::format("a polygon of {} corners, above the limit of {}", count,
+                           limit_of(Limit::POLYGON_CORNERS)),
+               "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
+  const auto corner = [&](std::size_t k) { return polygon[k % count]; };
+  const std::optional<std::size_t> first = fan_corner(count, [&](std::size_t k) -> const Vec3& {
+    return mesh.vertices[static_cast<std::size_t>(corner(k))];
+  });
+  if (!first)
+    lines.fail("a polygon that no fan of triangles fills", "cut it into triangles where it was made");
+  for (std::size_t k = 1; k + 1 < count; ++k)
+    mesh.triangles.push_back({corner(*first), corner(*first + k), corner(*first + k + 1)});
+  if (static_cast<std::int64_t>(mesh.triangles.size()) > limit_of(Limit::TRIANGLES))
+    lines.fail(fmt::format("more triangles than the limit of {}", limit_of(Limit::TRIANGLES)),
+               "decimate the mesh, or " + raise_remedy(Limit::TRIANGLES));
 }
 
 }  // namespace lmdbench

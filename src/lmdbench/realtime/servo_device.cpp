@@ -38,15 +38,21 @@ Pose SimulatedServoDevice::path_at(std::int64_t step) const {
           before.rotation.slerp(share, after.rotation)};
 }
 
+bool SimulatedServoDevice::is_due(const Due& due, std::int64_t now) const {
+  return due.at <= now + step_ns_ / 2;
+}
+
+void SimulatedServoDevice::hold_next() {
+  held_ = due_[first_due_].rendered;
+  first_due_ = (first_due_ + 1) % due_.size();
+  --due_count_;
+}
+
 void SimulatedServoDevice::advance_to(std::int64_t now) {
   // To the nearest step: a force within half a step of a tick belongs to it.
   const std::int64_t wanted = (now - start_ + step_ns_ / 2) / step_ns_;
   for (; step_ < wanted; ++step_) {
-    while (due_count_ > 0 && due_[first_due_].at <= start_ + step_ * step_ns_ + step_ns_ / 2) {
-      held_ = due_[first_due_].rendered;
-      first_due_ = (first_due_ + 1) % due_.size();
-      --due_count_;
-    }
+    while (due_count_ > 0 && is_due(due_[first_due_], start_ + step_ * step_ns_)) hold_next();
     mesh_.advance(held_, path_at(step_ + 1));
   }
 }
@@ -61,18 +67,14 @@ const Pose& SimulatedServoDevice::sense(std::int64_t, std::int64_t now) {
 }
 
 void SimulatedServoDevice::render(const RenderedForce& rendered, std::int64_t now) {
-  if (due_count_ == due_.size()) {
-    // The ring is full: the device calls far more often than it told.
-    held_ = due_[first_due_].rendered;
-    first_due_ = (first_due_ + 1) % due_.size();
-    --due_count_;
-  }
+  // The ring is full: the device calls far more often than it told.
+  if (due_count_ == due_.size()) hold_next();
   due_[(first_due_ + due_count_++) % due_.size()] = {now + delay_ns_, rendered};
   // What is due by the step that `advance_to` begins with.
   frame_.held = held_;
   for (std::size_t i = 0; i < due_count_; ++i) {
     const Due& due = due_[(first_due_ + i) % due_.size()];
-    if (due.at <= now + step_ns_ / 2) frame_.held = due.rendered;
+    if (is_due(due, now)) frame_.held = due.rendered;
   }
 }
 

@@ -69,6 +69,9 @@ class SimulatedServoDevice final : public ServoDevice {
     std::int64_t at = 0;
     RenderedForce rendered;
   };
+  /// Whether the force is held in the step that begins at `now`: to the nearest step.
+  bool is_due(const Due& due, std::int64_t now) const;
+  void hold_next();
   void advance_to(std::int64_t now);
   Pose path_at(std::int64_t step) const;
 
