@@ -13,7 +13,7 @@ changes by more:
   while forces are summed;
 - age: the pair comes or goes in this method while the reference had it already or lost it before: the set is late;
 - loss: the method drops a pair that the reference keeps;
-- false: the pair is not in the reference's set on either side."""
+- false: the pair comes or goes, and the reference never had it."""
 
 import argparse
 import collections
@@ -60,8 +60,9 @@ def hand_overs(births, deaths, step):
     return matched
 
 
-def events(before, after, true_before, true_after, step, cutoff):
-    """[(kind, jump)] between two frames of a method; the sets are {key: Pair}, jump is the change of force [N]."""
+def events(before, after, true_before, true_after, step, cutoff, known):
+    """[(kind, jump)] between two frames of a method; the sets are {key: Pair}, jump is the change of force [N]; known are the
+    keys that the reference had in any frame so far."""
     births = {key: pair for key, pair in after.items() if key not in before}
     deaths = {key: pair for key, pair in before.items() if key not in after}
     found = []
@@ -72,7 +73,7 @@ def events(before, after, true_before, true_after, step, cutoff):
         if is_birth != is_true:
             kind = "false" if is_birth else "loss"
         elif was_true == is_true:
-            kind = "age"  # the reference got or lost it in an earlier frame, or never had it
+            kind = "age" if key in known else "false"  # the reference got or lost it in an earlier frame, or never had it
         else:
             kind = "cutoff" if cutoff - pair.distance <= step else "fold"
         found.append((kind, float(np.linalg.norm(pair.force))))
@@ -108,8 +109,10 @@ def attribute(file):
     result = {}
     for label, own in sets.items():
         jumps = collections.defaultdict(list)
+        known = set()
         for f in range(time.size - 1):
-            for kind, jump in events(own[f], own[f + 1], true[f], true[f + 1], steps[f], scene[0]):
+            known.update(true[f])
+            for kind, jump in events(own[f], own[f + 1], true[f], true[f + 1], steps[f], scene[0], known):
                 jumps[kind].append(jump)
         result[label] = jumps
     return result, scene[2], time[-1] - time[0]

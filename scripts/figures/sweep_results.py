@@ -66,7 +66,7 @@ class Point:
         if self.failure:
             return self.failure
         if not math.isfinite(self.number("force_error_rms_n")):
-            return "force is not finite"
+            return "no true force in contact"
         return MISSES_ALL if self.number("recall") == 0.0 else ""
 
     @property

@@ -50,8 +50,10 @@ class Point:
         self.missed_adjacent = 1.0 - method.number("recall_adjacent")
         forces = method.read("force")
         self.failure = ""
-        if not np.all(np.isfinite(forces)) or not np.isfinite(self.force_error):
+        if not np.all(np.isfinite(forces)):
             self.failure = "force is not finite"
+        elif not np.isfinite(self.force_error):
+            self.failure = "no true force in contact"
         elif self.missed >= 1.0:
             self.failure = "finds no true LMD"
 

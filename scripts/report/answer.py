@@ -23,7 +23,7 @@ def sentence(rows):
     """Which method to take at the budget of one haptic frame, said with its conditions; what cannot be said is said."""
     probed = [row for row in rows if math.isfinite(row.force_error)]
     if not probed:
-        return "No truth probe in this run: the times stand without an error, so no method can be preferred."
+        return "No frame in contact was compared with a true force: the times stand without an error, so no method can be preferred."
     punctual = [row for row in probed if row.number("frame_time_p99_s") <= BUDGET_S]
     if not punctual:
         return "No method keeps 99 % of its frames within 1 ms here."

@@ -94,13 +94,13 @@ def searches(result):
 
 
 def clipping_beside(result, warnings):
-    """The run's note names a method that the device clips often; the others that it clips, too."""
+    """The run's note names a method whose force is clipped often; the others that are clipped, too."""
     if not any("clips the force" in warning for warning in warnings):
         return []
     shares = {method.label: method.number("force_clipped_share") for method in result.methods.values()
-              if not any(warning.startswith(f"{method.label}: the device clips the force") for warning in warnings)}
+              if not any(warning.startswith(f"{method.label}: ") and "clips the force" in warning for warning in warnings)}
     others = [f"{label} in {100.0 * share:.2g} %" for label, share in shares.items() if share > 0.0]
-    return [f"The device clips other methods, too: {', '.join(others)} of the frames in contact"] if others else []
+    return [f"The force of other methods is clipped, too: {', '.join(others)} of the frames in contact"] if others else []
 
 
 def notes_of(result):

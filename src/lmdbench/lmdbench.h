@@ -91,8 +91,9 @@ class LmdSearch {
   LmdSearch(LmdSearch&&) noexcept;
   LmdSearch& operator=(LmdSearch&&) noexcept;
 
-  /// The LMD set of one pose, searched from scratch: world coordinates, by rising distance.
-  /// @param X_WM pose of the moving mesh; its quaternion has unit length
+  /// The LMD set of one pose: world coordinates, by rising distance. A method may reuse work of the
+  /// last call; `certified` does not with the option {"frame_coherence": false}.
+  /// @param X_WM pose of the moving mesh; its quaternion is brought to unit length
   /// @throws UsageError for a pose that is not finite or no rotation
   LmdSet at(const Pose& X_WM);
 

@@ -131,6 +131,16 @@ TEST_F(ExactDifferences, NumbersOfTheSummaryHaveNoFrame) {
   EXPECT_EQ(found[0].frame, std::nullopt);
 }
 
+TEST_F(ExactDifferences, JumpsAreComparedOverTheSameFrames) {
+  SyntheticResult probed, known, other;
+  probed.methods = {"original"};
+  known.true_jumps = other.true_jumps = 40.0;
+  known.truth_of_every_frame = "certified";
+  EXPECT_EQ(differences(probed, other).size(), 1U);
+  EXPECT_THAT(differences(probed, known), IsEmpty()) << "a method more that knows the truth";
+  EXPECT_FALSE(same_true_steps(open(probed, "a.h5"), open(known, "b.h5")));
+}
+
 TEST_F(ExactDifferences, OrderOfMethodsDoesNotMatter) {
   SyntheticResult candidate;
   candidate.methods = {"certified", "original"};
@@ -155,6 +165,20 @@ TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
   ASSERT_EQ(input.size(), 1U);
   EXPECT_EQ(input[0].dataset, "/provenance/inputs/sha256:mesh:moving");
   EXPECT_THAT(experiment_differences(open({}, "a.h5"), open(more, "b.h5")), IsEmpty());
+}
+
+TEST_F(ExactDifferences, NamesAndPlacesOfMeshesAreNoDifference) {
+  const auto count = [&](const std::string& base, const std::string& candidate) {
+    SyntheticResult a, b;
+    a.moving = base;
+    b.moving = candidate;
+    return experiment_differences(open(a, "a.h5"), open(b, "b.h5")).size();
+  };
+  EXPECT_EQ(count(R"({"mesh":"moving.off"})", R"({"mesh":"/elsewhere/moving.stl"})"), 0U);
+  EXPECT_EQ(count(R"({"mesh":"moving.off"})", R"({"mesh":"torus"})"), 1U) << "no file: its name is the mesh";
+  EXPECT_EQ(count(R"({"of":[{"a":1},{"a":2}]})", R"({"of":[{"a":1},{"a":2,"new":3}]})"), 0U);
+  EXPECT_EQ(count(R"({"of":[{"a":1},{"a":2}]})", R"({"of":[{"a":1},{"a":3}]})"), 1U);
+  EXPECT_EQ(count(R"({"of":[{"a":1}]})", R"({"of":[{"a":1},{"a":3}]})"), 1U);
 }
 
 TEST_F(ExactDifferences, AMeshThatDeformsIsAnotherThanARigidOne) {

@@ -123,6 +123,7 @@ void write_method(ResultWriter& writer, const SyntheticResult& result, const std
   }
   write_real(writer, group + "/summary/local_update_median_s", {result.process_factor}, {1}, "s");
   write_real(writer, group + "/summary/force_error_p99_n", {result.summary}, {1}, "N");
+  write_real(writer, group + "/summary/true_jumps", {result.true_jumps}, {1}, "1");
   if (result.lists) write_lists(writer, result, method);
   if (result.polylines) write_polylines(writer, result, method);
   const bool changed = searches ? result.frame_with_other_force >= 0 : result.frame_with_lost_lmd >= 0;
@@ -158,6 +159,7 @@ std::filesystem::path SyntheticResult::write(const std::filesystem::path& file) 
   writer.write({"/provenance/inputs/role", "1", "role"}, roles);
   writer.write({"/provenance/inputs/sha256", "1", "hash"}, hashes);
   writer.attribute("/scene", "cutoff_m", scene_cutoff > 0.0 ? scene_cutoff : cutoff);
+  writer.attribute("/summary", "truth_of_every_frame", truth_of_every_frame);
   if (sweep) writer.attribute("/sweep", "name", std::string("budget"));
   writer.attribute("/methods", "warm_up_repetitions", std::int64_t{1});
   std::vector<double> time;

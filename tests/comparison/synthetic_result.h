@@ -31,9 +31,11 @@ struct SyntheticResult {
   bool polylines = false;                  ///< Two of two points in frames 3 and 6 each.
   int other_polyline = -1;                 ///< Has another length and last point.
   std::string processor = "processor A";
-  std::string extra_counter;  ///< Another counter of certified, "" for none
-  std::string idle_counter;   ///< Another counter of certified that stays 0, "" for none
-  double summary = 0.5;       ///< A number of the summary that is no time
+  std::string extra_counter;         ///< Another counter of certified, "" for none
+  std::string idle_counter;          ///< Another counter of certified that stays 0, "" for none
+  double summary = 0.5;              ///< A number of the summary that is no time
+  double true_jumps = 3.0;           ///< In the summary
+  std::string truth_of_every_frame;  ///< Label of a method, "" for none
   int repetitions = 3;
   bool times = true;     ///< As /record/timings
   bool counters = true;  ///< As /record/counters

@@ -5,7 +5,9 @@
 #include <lmdbench/methods/registry.h>
 
 #include <gtest/gtest.h>
+#include <support/closed_solids.h>
 #include <support/scenes.h>
+#include <support/sleeves.h>
 
 #include <algorithm>
 #include <cmath>
@@ -130,6 +132,36 @@ double force_in_bore(int rod, int bore) {
     mean += force.norm() / ROLLS;
   }
   return mean;
+}
+
+/// The index of a ring on a plate is 0, and that of a plate with two holes -1.
+TEST(FlatContacts, PushWhateverHolesTheyHave) {
+  constexpr double CUTOFF = 0.1, GAP = 0.01;
+  for (const TriangleMesh& part : {testing::make_ring(1.0, 0.5, 16, 1), testing::make_plate_with_holes(2)}) {
+    const double height = 0.5 - bounding_box(part).min().z() + GAP;
+    for (const Aggregation* law : {&shared_law(), &layered_law()}) {
+      Rendered rendered(*law, testing::make_scene(part, make_box({40.0, 40.0, 1.0}), CUTOFF));
+      for (const double tilt : {0.0, 1e-9, 1e-6}) {
+        Pose X_WM = testing::moved(0.1, 0.2, height);
+        X_WM.rotation = Eigen::AngleAxisd(tilt, Vec3(0.6, 0.8, 0.0));
+        EXPECT_NEAR(rendered.at(X_WM).z(), 1.0 - GAP / CUTOFF, 1e-3) << law->name << ", tilt " << tilt;
+      }
+    }
+  }
+}
+
+/// Two feet are one component from the distance of the groove between them on.
+TEST(FlatContacts, SharedFindsTheSaddleOfParallelFaces) {
+  constexpr double CUTOFF = 2.0, GAP = 0.2;
+  const TriangleMesh bridge = testing::make_voxels({{0, 0, 0}, {2, 0, 0}, {0, 0, 1}, {1, 0, 1}, {2, 0, 1}});
+  Rendered rendered(shared_law(), testing::make_scene(bridge, make_box({40.0, 40.0, 1.0}), CUTOFF));
+  const double height = 0.5 - bounding_box(bridge).min().z() + GAP;
+  const double foot = 1.0 - GAP / CUTOFF, groove = 1.0 - (1.0 + GAP) / CUTOFF;
+  for (const double tilt : {0.0, 1e-9, 1e-6}) {
+    Pose X_WM = testing::moved(0.1, 0.2, height);
+    X_WM.rotation = Eigen::AngleAxisd(tilt, Vec3::UnitX());
+    EXPECT_NEAR(rendered.at(X_WM).z(), 2.0 * (foot - groove) + groove, 1e-5) << tilt;
+  }
 }
 
 TEST(Layered, ARodInABoreHasOneForceHoweverManyFacets) {

@@ -161,6 +161,22 @@ TEST_F(SummariseErrorsTest, TruthOfEveryFrameTakesThePlaceOfTheProbes) {
   EXPECT_EQ(summary_.force_jump_maximum_n, 0.0);
 }
 
+TEST_F(SummariseErrorsTest, StepsWithoutATrueForceCountNowhere) {
+  CompleteTruth truth{"certified", {}, std::vector<std::int64_t>(10, 1)};
+  MethodRecord record;
+  for (int i = 0; i < 10; ++i) {
+    const double force = i % 2 == 0 ? 0.0 : 1.01 * JUMP;
+    truth.force[static_cast<std::size_t>(ForceLaw::LINEAR)].push_back(
+        Vec3::Constant(i == 4 ? UNSET : force / std::sqrt(3.0)));
+    record.frames.push_back(frame_of(i == 4 ? 50.0 : 0.0));
+  }
+  summarise_true_steps(summary_, ForceLaw::LINEAR, record, truth, frames_);
+  EXPECT_EQ(summary_.true_jump_frames, 5.0) << "of 2 to 8, without 3 and 4";
+  EXPECT_EQ(summary_.true_jumps, 7.0) << "also of frames out of contact";
+  EXPECT_NEAR(summary_.true_jumps_per_second_low, 2.8144 / (5.0 / RATE_HZ), 0.01);
+  EXPECT_EQ(summary_.force_jump_maximum_n, 0.0) << "of the same steps";
+}
+
 TEST(SummariseErrors, NothingProbedIsUnset) {
   MethodSummary summary;
   summarise_errors(summary, ForceLaw::LINEAR, {}, {}, {{true}, RATE_HZ, MAXIMUM_FORCE});

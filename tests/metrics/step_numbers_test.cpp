@@ -48,7 +48,7 @@ Judged blind_in(const PreparedRun& run, const std::vector<std::size_t>& blind,
   judged.truth = true_sets(run, 3, {});
   MethodRecord record;
   for (std::size_t frame = 0; frame < run.input.poses.size(); ++frame) {
-    LmdSet set = judged.truth.sets[frame];
+    LmdSet set = judged.truth.frames[frame].lmds;
     if (std::find(blind.begin(), blind.end(), frame) != blind.end()) set.clear();
     FrameRecord& row = record.frames.emplace_back();
     row.lmd_count = static_cast<std::int64_t>(set.size());
@@ -56,7 +56,8 @@ Judged blind_in(const PreparedRun& run, const std::vector<std::size_t>& blind,
       if (!lmd.intersecting) row.force -= 2.0 * (1.0 - lmd.distance / CUTOFF) * lmd.direction;
     record.lmds[static_cast<std::int64_t>(frame)] = set;
   }
-  const std::vector<TruthFrame> frames = truth_frames(judged.truth, run, 0);
+  std::vector<TruthFrame> frames = judged.truth.frames;
+  frames.pop_back();
   judged.numbers =
       count_steps(record, ForceLaw::LINEAR, frames,
                   compare_with_truth(frames, record, ForceLaw::LINEAR, run.scene()), run, run, in_contact);
@@ -66,18 +67,16 @@ Judged blind_in(const PreparedRun& run, const std::vector<std::size_t>& blind,
 TEST(TrueSets, IsTheExhaustiveSetAndSaysWhereItWasChecked) {
   const PreparedRun run = approach({0.04, 0.03, 0.02, 0.06, 0.01, 0.02, 0.03, 0.04, 0.045, 0.04});
   const TrueSets truth = true_sets(run, 5, {});
-  ASSERT_EQ(truth.sets.size(), 10u);
+  ASSERT_EQ(truth.frames.size(), 10u);
   EXPECT_EQ(truth.checked_frames, 5);
   EXPECT_EQ(truth.wrong_frames, 0);
-  EXPECT_NEAR(truth.sets[2].at(0).distance, 0.02, 1e-9);
-  EXPECT_TRUE(truth.sets[3].empty()) << "beyond the cutoff";
+  EXPECT_NEAR(truth.frames[2].lmds.at(0).distance, 0.02, 1e-9);
+  EXPECT_TRUE(truth.frames[3].lmds.empty()) << "beyond the cutoff";
   EXPECT_EQ(true_sets(run, 100, {}).checked_frames, 10) << "no more than there are";
   EXPECT_EQ(true_sets(run, 0, {}).checked_frames, 0);
-  const std::vector<TruthFrame> frames = truth_frames(truth, run, 4);
-  ASSERT_EQ(frames.size(), 5u) << "4 to 8; frame 9 has no next one";
-  EXPECT_EQ(frames[0].frame, 4);
-  EXPECT_NEAR(frames[0].force[0].x(), 2.0 * 0.8, 1e-6);
-  EXPECT_NEAR(frames[0].force_jump[0], 2.0 * 0.2, 1e-6);
+  EXPECT_EQ(truth.frames[4].frame, 4);
+  EXPECT_NEAR(truth.frames[4].force[0].x(), 2.0 * 0.8, 1e-6);
+  EXPECT_NEAR(truth.frames[4].force_jump[0], 2.0 * 0.2, 1e-6);
 }
 
 TEST(StepNumbers, APerfectMethodJumpsWhereTruthDoesAndNowhereElse) {

@@ -48,6 +48,14 @@ TEST_F(TimesTest, OneSlowRepetitionSaysNothing) {
   EXPECT_DOUBLE_EQ(summary().local_update_maximum_s, 10.0);
 }
 
+TEST_F(TimesTest, TheLastSearchIsNotAllOfTheFrameThatThePathEndsWith) {
+  record_.frames.pop_back();
+  for (RepetitionTimes& times : record_.repetitions) times.local_update.pop_back();
+  EXPECT_DOUBLE_EQ(time_per_frame(record_)[0][4], 5.0 + 16.5) << "as over two frames, like the one before";
+  record_.searches.resize(1);
+  EXPECT_DOUBLE_EQ(time_per_frame(record_)[0][4], 5.0 + 12.0 / 5.0) << "one alone is over all";
+}
+
 TEST_F(TimesTest, ASearchIsSpreadOverTheFramesUntilTheNext) {
   const auto rows = time_per_frame(record_);
   ASSERT_EQ(rows.size(), 3u) << "the warm-up is left out";

@@ -50,6 +50,17 @@ TEST(VirtualPhantom, LimitsThemselvesAreNotExceeded) {
   EXPECT_FALSE(DESKTOP.render(command(Vec3(0, -1.75, 0))).exceeds_continuous_force);
 }
 
+TEST(VirtualPhantom, RoundingExceedsNothing) {
+  const Vec3 along = Vec3(1.0, 1.0, 1.0) / std::sqrt(3.0);
+  for (const double ulps : {1.0, 4.0}) {
+    const double longer = 1.0 + ulps * std::numeric_limits<double>::epsilon();
+    EXPECT_FALSE(DESKTOP.render(command(7.9 * longer * along)).clipped);
+    EXPECT_FALSE(DESKTOP.render(command(1.75 * longer * along)).exceeds_continuous_force);
+  }
+  EXPECT_TRUE(DESKTOP.render(command(7.9 * (1.0 + 1e-11) * along)).clipped);
+  EXPECT_TRUE(DESKTOP.render(command(1.75 * (1.0 + 1e-11) * along)).exceeds_continuous_force);
+}
+
 TEST(VirtualPhantom, TorqueIsRenderedByThoseThatActuateItAndClippedByItself) {
   EXPECT_EQ(DESKTOP.render(command(Vec3(1.0, 0.0, 0.0))).torque, Vec3::Zero());
   EXPECT_FALSE(DESKTOP.render(command(Vec3(1.0, 0.0, 0.0))).torque_clipped);

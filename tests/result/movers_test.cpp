@@ -182,6 +182,13 @@ TEST(Movers, AllPairsAgreeWithTruthAndWithFcl) {
     EXPECT_EQ(contact[frame] != 0, count[frame] > 0) << frame;
   EXPECT_TRUE(file.has("/methods/certified/counters/pairs_searched"));
   EXPECT_TRUE(file.has("/reference/movers/force_linear"));
+
+  // The truth of sweeps has the force of each, too.
+  const TrueSets truth = true_sets(result.prepared, 0, {});
+  ASSERT_EQ(truth.frames.size(), 60u);
+  const auto law = static_cast<std::size_t>(ForceLaw::EXPONENTIAL);
+  for (std::size_t i = 0; i < result.records[1].movers.size(); ++i)
+    EXPECT_EQ(truth.frames[i / 8].movers[law].at(i % 8), result.records[1].movers[i].force) << i;
 }
 
 TEST(Movers, TheirOrderInTheFileIsOnlyTheirNumbering) {
@@ -359,6 +366,12 @@ TEST(Movers, ABadEntryNamesItsPlace) {
   EXPECT_THAT(
       message_of<InputError>([&] { prepared(R"({"mesh":"ball","path":{"file":")" + brief + "\"}}"); }),
       AllOf(HasSubstr("/movers/3/path/file"), HasSubstr("11 frames of the 60")));
+  for (const std::string start : {"0.05", "-0.05"}) {
+    const std::string late = scratch.write("late.tum", start + " 0 0 0 0 0 0 1\n9 0 0 0 0 0 0 1\n");
+    EXPECT_THAT(
+        message_of<InputError>([&] { prepared(R"({"mesh":"ball","path":{"file":")" + late + "\"}}"); }),
+        AllOf(HasSubstr("/movers/3/path/file"), HasSubstr("begins at " + start)));
+  }
 }
 
 TEST(Movers, OnesThatAreTheSameMeshAreReadOnce) {

@@ -433,6 +433,27 @@ TEST(Summary, ACompleteSetThatRunsAlongIsTheTruthOfEveryFrame) {
   EXPECT_NE(along.at("original").second, along.at("improved").second);
 }
 
+TEST(Summary, ForcesOfFramesInWhichTrianglesIntersectAreNotTheTruth) {
+  const ScratchDirectory scratch;
+  std::ofstream(scratch / "path.tum") << "0 0.12 0 0 0 0 0 1\n0.1 0.07 0 0 0 0 0 1\n";
+  const Experiment experiment = short_shapes({"/path/file=" + (scratch / "path.tum").string(), "/frames=90",
+                                              R"(/methods=[{"name":"certified","force_law":"linear"}])"});
+  const RunResult run = run_experiment(experiment);
+  ASSERT_TRUE(run.tracks[0].truth()->complete);
+  const ForcesByLaw& forces = run.tracks[0].truth()->complete->force;
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < run.records[0].frames.size(); ++i) {
+    const bool intersects = run.records[0].frames[i].contact_without_direction > 0;
+    unknown += intersects ? 1 : 0;
+    for (const ForceLaw law : force_laws())
+      EXPECT_EQ(forces[static_cast<std::size_t>(law)][i].hasNaN(), intersects) << i;
+  }
+  EXPECT_GT(unknown, 2u);
+  const MethodSummary summary = summarise(experiment, run).methods[0];
+  EXPECT_LT(summary.true_jump_frames, summary.frames_in_contact - 1.0);
+  EXPECT_GT(summary.true_jump_frames, 0.0);
+}
+
 TEST(Summary, TextTellsCountsAndIntervals) {
   const Experiment experiment =
       short_shapes({R"(/methods/-={"name":"certified","force_law":"exponential"})"});

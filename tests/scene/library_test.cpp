@@ -34,6 +34,22 @@ TEST(LibraryInstances, AreCopiesOfOneMeshAtTheirPoses) {
   EXPECT_TRUE(search.at(moved(1.5, 5.0, 0.0)).empty());
 }
 
+/// Of single precision, as other programs keep quaternions: else faces were tilted to edges.
+TEST(LibraryPoses, AreTurnedByAQuaternionOfUnitLength) {
+  const PreparedMesh cube(make_box({1, 1, 1}));
+  LmdSearch search(cube, cube, 0.1);
+  const double half = static_cast<double>(0.70710678F);
+  Pose rounded, exact;
+  rounded.rotation = {half, half, 0.0, 0.0};
+  rounded.translation = exact.translation = Vec3(0.1, 0.2, 1.05);
+  exact.rotation = rounded.rotation.normalized();
+  const LmdSet lmds = search.at(rounded), expected = search.at(exact);
+  ASSERT_EQ(lmds.size(), 1u);
+  EXPECT_EQ(lmds[0].point_moving, expected.at(0).point_moving);
+  EXPECT_EQ(lmds[0].feature_moving.kind, FeatureKind::FACE);
+  EXPECT_NEAR(lmds[0].distance, 0.05, 1e-12);
+}
+
 TEST(LibraryInstances, RefusesWhatIsNoPose) {
   const PreparedMesh ball(make_sphere(0.5, 1));
   const auto made_with = [&](const std::vector<Pose>& poses) {

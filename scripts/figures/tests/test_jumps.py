@@ -18,8 +18,8 @@ def pair(distance, force=1.0, x=0.0):
     return jumps.Pair(distance, np.array([0.0, 0.0, force]), np.array([x, 0.0, 0.0]))
 
 
-def kinds(before, after, true_before, true_after):
-    return [kind for kind, _ in jumps.events(before, after, true_before, true_after, STEP, CUTOFF)]
+def kinds(before, after, true_before, true_after, known="a"):
+    return [kind for kind, _ in jumps.events(before, after, true_before, true_after, STEP, CUTOFF, known)]
 
 
 class Attribution(unittest.TestCase):
@@ -35,8 +35,8 @@ class Attribution(unittest.TestCase):
 
     def test_hand_over_counts_only_the_change_of_force(self):
         before, after = {"a": pair(5e-4, 1.0)}, {"b": pair(5e-4 + 0.9 * STEP, 1.01, 40 * STEP)}
-        self.assertEqual(jumps.events(before, after, before, after, STEP, CUTOFF)[0][0], "hand-over")
-        self.assertAlmostEqual(jumps.events(before, after, before, after, STEP, CUTOFF)[0][1], 0.01)
+        self.assertEqual(jumps.events(before, after, before, after, STEP, CUTOFF, "a")[0][0], "hand-over")
+        self.assertAlmostEqual(jumps.events(before, after, before, after, STEP, CUTOFF, "a")[0][1], 0.01)
 
     def test_far_pair_or_other_distance_is_no_hand_over(self):
         before = {"a": pair(5e-4)}
@@ -54,6 +54,7 @@ class Attribution(unittest.TestCase):
         self.assertEqual(kinds(one, {}, {}, {}), ["age"], "it stayed too long")
         self.assertEqual(kinds(one, {}, one, one), ["loss"])
         self.assertEqual(kinds({}, one, {}, {}), ["false"])
+        self.assertEqual(kinds(one, {}, {}, {}, known=""), ["false"], "the reference never had it")
 
 
 class Law(unittest.TestCase):

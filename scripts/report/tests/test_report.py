@@ -51,7 +51,7 @@ class Answer(Scratch):
 
     def test_says_when_no_method_is_in_time_or_judged(self):
         self.assertIn("No method keeps", sentence([FakeRow("a", 0.0, 1e-3, 2e-3)]))
-        self.assertIn("No truth probe", sentence([FakeRow("a", float("nan"), 1e-6, 1e-6)]))
+        self.assertIn("No frame in contact was compared", sentence([FakeRow("a", float("nan"), 1e-6, 1e-6)]))
 
     def test_shows_a_row_a_method_with_both_recalls(self):
         shown = answer(Result(write_result(self.path("hard.h5"))))
@@ -139,7 +139,7 @@ class WhatWasRun(Scratch):
                 h5[f"methods/{label}/summary/force_clipped_share"] = [share]
         result = Result(file)
         self.assertEqual(report.clipping_beside(result, ["original: the device clips the force in 30 % of the frames"]),
-                         ["The device clips other methods, too: improved in 2 % of the frames in contact"])
+                         ["The force of other methods is clipped, too: improved in 2 % of the frames in contact"])
         self.assertEqual(report.clipping_beside(result, []), [])
 
     def test_provenance_is_in_words(self):
@@ -352,7 +352,7 @@ class Page(Scratch):
             claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
             self.assertIn("No claim can be judged", claims)
             if not stride:
-                self.assertIn("No truth probe in this run", text)
+                self.assertIn("No frame in contact was compared", text)
         self.assertIn("cutoff 1 and 10 mm", text)
 
     def test_data_is_json(self):

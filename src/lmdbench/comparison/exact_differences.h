@@ -53,10 +53,15 @@ struct ExactOptions {
 
 /// Compares every deterministic dataset of every method, matched by label in any order: LMD sets,
 /// forces, counters, errors against truth; no times. A method or dataset of the candidate alone is
-/// no difference; one that it lost is, unless it is a counter that was 0 throughout.
+/// no difference; one that it lost is, unless it is a counter that was 0 throughout. Numbers of
+/// true steps are left out without `same_true_steps`.
 /// @return at most one entry a dataset, in the order of `reported_before`
 std::vector<Difference> exact_differences(const ResultReader& base, const ResultReader& candidate,
                                           const ExactOptions& options);
+
+/// Whether the true force is known in every frame of both or of neither: a method that finds the
+/// complete set tells it for all methods, and jumps are then counted over more frames.
+bool same_true_steps(const ResultReader& base, const ResultReader& candidate);
 
 /// The same for a group outside the methods, such as /path; bit by bit.
 std::vector<Difference> group_differences(const ResultReader& base, const ResultReader& candidate,

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <string_view>
@@ -16,6 +18,14 @@ namespace lmdbench {
 namespace {
 
 constexpr const char* EXPERIMENT = "/provenance/experiment";
+
+std::map<std::string, std::string> input_hashes(const ResultReader& file) {
+  const std::vector<std::string> roles = file.texts("/provenance/inputs/role");
+  const std::vector<std::string> hashes = file.texts("/provenance/inputs/sha256");
+  std::map<std::string, std::string> by_role;
+  for (std::size_t i = 0; i < std::min(roles.size(), hashes.size()); ++i) by_role[roles[i]] = hashes[i];
+  return by_role;
+}
 
 /// The part of the experiment that decides results.
 nlohmann::json deciding_part(const ResultReader& file) {
@@ -31,16 +41,23 @@ nlohmann::json deciding_part(const ResultReader& file) {
     experiment["driver"].erase("repetitions");
     experiment["driver"].erase("block_frames");
   }
-  // A mesh without a deformation, also in old files, differs from one with it. The files with the
-  // vertices do not matter: their SHA-256 is compared.
-  const auto tell_rigid = [](nlohmann::json& mesh) {
+  // Of a file its content matters, not its name and place. A mesh without a deformation, also in
+  // old files, differs from one with it. The files with the vertices do not matter: their SHA-256
+  // is compared.
+  const std::map<std::string, std::string> inputs = input_hashes(file);
+  const auto tell_mesh = [&](nlohmann::json& mesh) {
     if (!mesh.is_object()) return;
+    if (const nlohmann::json name = mesh.value("mesh", nlohmann::json()); name.is_string()) {
+      const auto found =
+          inputs.find("mesh:" + std::filesystem::path(name.get<std::string>()).stem().string());
+      if (found != inputs.end()) mesh["mesh"] = found->second;
+    }
     nlohmann::json& deformation = mesh["deformation"];
     if (!deformation.is_object()) return;
     if (deformation.erase("files") + deformation.erase("folder") > 0) deformation["files"] = true;
   };
-  tell_rigid(experiment["moving"]);
-  if (experiment["fixed"].is_array()) std::ranges::for_each(experiment["fixed"], tell_rigid);
+  tell_mesh(experiment["moving"]);
+  if (experiment["fixed"].is_array()) std::ranges::for_each(experiment["fixed"], tell_mesh);
   // No movers, also in old files, is another scene than some.
   nlohmann::json& movers = experiment["movers"];
   if (movers.is_array())
@@ -49,7 +66,7 @@ nlohmann::json deciding_part(const ResultReader& file) {
         mover["path"]["file"] = true;
   if (nlohmann::json& objects = experiment["objects"]; objects.is_array())
     for (nlohmann::json& object : objects) {
-      tell_rigid(object);
+      tell_mesh(object);
       if (object.is_object() && object["motion"].is_object() && object["motion"].contains("path"))
         object["motion"]["path"] = true;
     }
@@ -69,16 +86,13 @@ void compare_json(const nlohmann::json& base, const nlohmann::json& candidate, c
         compare_json(value, candidate[key], fmt::format("{}/{}", pointer, key), differences);
     return;
   }
+  if (base.is_array() && candidate.is_array() && base.size() == candidate.size()) {
+    for (std::size_t i = 0; i < base.size(); ++i)
+      compare_json(base[i], candidate[i], fmt::format("{}/{}", pointer, i), differences);
+    return;
+  }
   if (base != candidate)
     differences.push_back({"", EXPERIMENT + std::string(":") + pointer, std::nullopt, base, candidate, 0});
-}
-
-std::map<std::string, std::string> input_hashes(const ResultReader& file) {
-  const std::vector<std::string> roles = file.texts("/provenance/inputs/role");
-  const std::vector<std::string> hashes = file.texts("/provenance/inputs/sha256");
-  std::map<std::string, std::string> by_role;
-  for (std::size_t i = 0; i < std::min(roles.size(), hashes.size()); ++i) by_role[roles[i]] = hashes[i];
-  return by_role;
 }
 
 void compare_inputs(const ResultReader& base, const ResultReader& candidate,

@@ -20,7 +20,7 @@ namespace lmdbench {
 /// components of {distance <= t} that hold them are one, if they were not before.
 struct Merge {
   std::size_t saddle = 0;             ///< Into the critical set.
-  std::size_t first = 0, second = 0;  ///< Into the critical set; of index 1 or more.
+  std::size_t first = 0, second = 0;  ///< Into the critical set; CriticalPair::is_basin.
 };
 
 /// Ends of descents, by fixed body and the pair of triangles that they began at.

@@ -614,7 +614,10 @@ class Joining {
       const Representative whole = represent_contacts(pair_, places_, minima);
       report(whole.contact(), *whole.namesake, set, true);
     } else if (sum_of(set) != 0) {  // Rule S: no minimum.
-      report(contacts_[set.front()], contacts_[set.front()], set, false);
+      // By the point that is the saddle where indices are taken: descents begin there.
+      const auto saddle = std::ranges::find_if(set, [&](std::size_t i) { return contacts_[i].index < 0; });
+      const Contact& named = contacts_[saddle == set.end() ? set.front() : *saddle];
+      report(named, named, set, false);
     }
   }
 
@@ -642,10 +645,22 @@ class Joining {
       return signs_->moving.has_index(contacts_[i].moving) && signs_->fixed.has_index(contacts_[i].fixed);
     });
     const int index = has_index ? sum_of(set) : 1;
-    const bool is_basin =
-        has_index
-            ? index > 0 && std::ranges::any_of(set, [&](std::size_t i) { return contacts_[i].is_basin; })
-            : is_minimum;
+    const auto any = [&](const auto& is) {
+      return std::ranges::any_of(set, [&](std::size_t i) { return is(contacts_[i]); });
+    };
+    // A way down begins where a saddle is and no minimum: a birth. Saddles at minima are round a
+    // hole of the overlap, as under a washer; corners are minima only without a tilt.
+    const auto is_way_down = [&](const Contact& saddle) {
+      return saddle.index < 0 && !any([&](const Contact& c) {
+               const bool same_moving = c.moving == saddle.moving, same_fixed = c.fixed == saddle.fixed;
+               return c.is_minimum &&
+                      ((same_moving && (same_fixed || saddle.fixed.kind == FeatureKind::VERTEX)) ||
+                       (same_fixed && saddle.moving.kind == FeatureKind::VERTEX));
+             });
+    };
+    const bool is_basin = has_index ? (index > 0 || (is_minimum && !any(is_way_down))) &&
+                                          any([](const Contact& c) { return c.is_basin; })
+                                    : is_minimum;
     signs_->critical.push_back({lmd, index, is_minimum, has_index, is_basin});
   }
 

@@ -185,7 +185,7 @@ class MethodRun {
       add_feature(result_hash_, lmd.feature_fixed);
     }
     work_hash_.add(result.counters.values);
-    if (keeps_both_laws_) keep_both_laws(lmds, reference_W, rendered);
+    if (keeps_both_laws_) keep_both_laws(lmds, reference_W, result);
     record_.frames.push_back(result);
     if (input_.keep_lmds && input_.keep_lmds(frame)) record_.lmds.emplace(frame, std::move(lmds));
     const Pose X_WM = poses_->pose();
@@ -205,15 +205,17 @@ class MethodRun {
     record_.movers.insert(record_.movers.end(), movers.begin(), movers.end());
   }
 
-  void keep_both_laws(const LmdSet& lmds, const Vec3& reference_W, const RenderedForce& own) {
+  void keep_both_laws(const LmdSet& lmds, const Vec3& reference_W, const FrameRecord& own) {
     for (const ForceLaw law : force_laws()) {
       ForceProfile profile = profile_;
       profile.law = law;
-      record_.force_by_law[static_cast<std::size_t>(law)].push_back(
-          law == profile_.law
-              ? own.force
-              : input_.device.render(contacts_.combine(lmds, profile, reference_W), profile.largest_sum)
-                    .force);
+      Vec3 force = own.force;
+      if (own.contact_without_direction > 0)
+        force.setConstant(UNSET);  // no force is the true one
+      else if (law != profile_.law)
+        force =
+            input_.device.render(contacts_.combine(lmds, profile, reference_W), profile.largest_sum).force;
+      record_.force_by_law[static_cast<std::size_t>(law)].push_back(force);
     }
   }
 

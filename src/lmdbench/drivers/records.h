@@ -81,7 +81,7 @@ struct MethodRecord {
   /// then has forces of the moving mesh, LMD counts and distances of all pairs.
   std::vector<MoverFrame> movers;
   /// Forces of its sets under each law, if these are the truth of every frame: of a method that
-  /// promises the complete set and finds it anew. Empty for others.
+  /// promises the complete set and finds it anew. NaN where triangles intersect. Empty for others.
   ForcesByLaw force_by_law;
   std::vector<Pose>
       poses;  ///< Closed loop: X_WM of each frame, as the encoders told it. Empty in an open one.

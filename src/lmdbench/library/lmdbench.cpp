@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace lmdbench {
@@ -50,15 +51,18 @@ void check_mesh_in_memory(const TriangleMesh& mesh, const std::string& name) {
   check_mesh_limits(mesh, name);
 }
 
-void refuse_bad_pose(const Pose& pose, const std::string& place) {
+/// @return the pose, its quaternion brought to unit length where it is off by more than rounding
+Pose rigid(Pose pose, const std::string& place) {
   const double length = pose.rotation.norm();
-  const bool rigid = pose.translation.allFinite() &&
-                     pose.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE &&
-                     std::abs(length - 1.0) <= QUATERNION_LENGTH_TOLERANCE;  // also false for NaN
-  if (!rigid)
+  const bool is_rigid = pose.translation.allFinite() &&
+                        pose.translation.cwiseAbs().maxCoeff() <= LARGEST_COORDINATE &&
+                        std::abs(length - 1.0) <= QUATERNION_LENGTH_TOLERANCE;  // false for NaN
+  if (!is_rigid)
     throw UsageError(
         "", place, "is no rigid transform of finite size",
         fmt::format("give a unit quaternion and a translation up to {:g} m", LARGEST_COORDINATE));
+  if (std::abs(length - 1.0) > 4.0 * std::numeric_limits<double>::epsilon()) pose.rotation.normalize();
+  return pose;
 }
 
 Scene scene_of(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, double cutoff) {
@@ -127,9 +131,7 @@ LmdSearch::LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>
     throw UsageError("", "X_WF", fmt::format("{} poses of {} fixed meshes", X_WF.size(), fixed.size()),
                      "give one a mesh");
   for (std::size_t i = 0; i < X_WF.size(); ++i) {
-    refuse_bad_pose(X_WF[i], fmt::format("X_WF {}", i));
-    scene.fixed[i].X_WF = X_WF[i];
-    scene.fixed[i].X_WF.rotation.normalize();
+    scene.fixed[i].X_WF = rigid(X_WF[i], fmt::format("X_WF {}", i));
   }
   std::unique_ptr<Method> made = make_method(method, scene, chosen);
   state_ = std::make_unique<State>(State{std::move(scene), std::move(made)});
@@ -144,8 +146,7 @@ LmdSearch::LmdSearch(LmdSearch&&) noexcept = default;
 LmdSearch& LmdSearch::operator=(LmdSearch&&) noexcept = default;
 
 LmdSet LmdSearch::at(const Pose& X_WM) {
-  refuse_bad_pose(X_WM, "pose");
-  return query(*state_->method, X_WM, state_->scene.cutoff).lmds;
+  return query(*state_->method, rigid(X_WM, "pose"), state_->scene.cutoff).lmds;
 }
 
 double LmdSearch::cutoff() const {

@@ -11,14 +11,14 @@ namespace lmdbench {
 /// A critical pair of two solids' distance (DEFINITION.md, "Critical pairs"): LMD or saddle.
 struct CriticalPair {
   Lmd pair;
-  /// +1 for a minimum, -1 for a saddle of first order. Of several pairs at one place (a face on a
-  /// face) the sum, which may be 0 just at a birth.
+  /// +1 for a minimum, -1 for a saddle of first order. Of several pairs at one place the sum: of a
+  /// face on a face 1 less the holes of their overlap, and 0 just at a birth.
   int index = 1;
   bool is_minimum = true;
   /// False for an LMD on a border or at more than two triangles; then `index` is 1.
   bool has_index = true;
   /// Whether laws that share a force among minima give it a share: at the pose of indices nothing
-  /// round it is nearer and index >= 1. Equals `is_minimum`, except within 1e-9 of a birth.
+  /// round it is nearer and nothing leads down from it. Equals `is_minimum`, except near births.
   bool is_basin = true;
 };
 

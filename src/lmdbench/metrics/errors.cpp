@@ -76,14 +76,6 @@ std::int64_t count_jumps(const std::vector<Vec3>& forces, const RunFrames& frame
   return jumps;
 }
 
-/// Changes of force from the frames in contact to the next ones.
-std::vector<double> changes_in_contact(const std::vector<Vec3>& forces, const RunFrames& frames) {
-  std::vector<double> changes;
-  for (std::size_t i = 0; i + 1 < forces.size(); ++i)
-    if (frames.in_contact[i]) changes.push_back((forces[i + 1] - forces[i]).norm());
-  return changes;
-}
-
 }  // namespace
 
 void summarise_counts(MethodSummary& summary, const MethodRecord& record, const RunFrames& frames) {
@@ -223,10 +215,19 @@ void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<Tr
 void summarise_true_steps(MethodSummary& summary, ForceLaw law, const MethodRecord& record,
                           const CompleteTruth& truth, const RunFrames& frames) {
   const std::vector<Vec3>& forces = truth.force[static_cast<std::size_t>(law)];
-  set_true_jumps(summary, count_events(count_jumps(forces, frames), seconds_in_contact(frames)),
-                 frames_in_contact(frames));
-  const std::vector<double> changes = changes_in_contact(forces_of(record), frames);
-  const std::vector<double> true_changes = changes_in_contact(forces, frames);
+  std::vector<double> changes, true_changes;
+  std::int64_t known = 0;  // in contact
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const std::size_t next = std::min(i + 1, forces.size() - 1);
+    if (!frames.in_contact[i] || forces[i].hasNaN() || forces[next].hasNaN()) continue;
+    ++known;
+    if (next == i) continue;
+    changes.push_back((record.frames[next].force - record.frames[i].force).norm());
+    true_changes.push_back((forces[next] - forces[i]).norm());
+  }
+  set_true_jumps(summary,
+                 count_events(count_jumps(forces, frames), static_cast<double>(known) / frames.frame_rate_hz),
+                 known);
   summary.force_jump_p99_n = quantile(changes, P99);
   summary.force_jump_maximum_n = maximum(changes);
   summary.true_force_jump_p99_n = quantile(true_changes, P99);

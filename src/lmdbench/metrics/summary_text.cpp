@@ -49,7 +49,7 @@ std::string error_text(const MethodSummary& m, double frame_rate_hz) {
              events_text({m.true_jumps, m.true_jumps_per_second, m.true_jumps_per_second_low,
                           m.true_jumps_per_second_high},
                          m.true_jump_frames / frame_rate_hz,
-                         m.true_jump_frames == m.frames_in_contact ? "" : " of probed frames in contact"),
+                         m.true_jump_frames == m.frames_in_contact ? "" : " of frames with a true force"),
              shown(m.force_jump_p99_n, 1, " N"), shown(m.true_force_jump_p99_n, 1, " N"));
 }
 
@@ -83,8 +83,8 @@ std::string method_text(const MethodSummary& m, const RunSummary& summary) {
   text += rendered_text(m);
   text += summary.frames_probed > 0
               ? error_text(m, summary.frame_rate_hz)
-              : "  error  not measured: the truth probe is off, so the times below stand without what they "
-                "bought\n";
+              : "  error  not measured: no frame is compared with truth, so the times below stand without "
+                "what they bought\n";
   text += fmt::format("  time   local update {} median, {} 99 % of the frames in contact",
                       shown(m.local_update_median_s, 1e6, " us"), shown(m.local_update_p99_s, 1e6, " us"));
   if (!std::isnan(m.global_search_median_s))
@@ -184,7 +184,7 @@ std::string summary_table(const RunSummary& summary) {
   std::string text = fmt::format(
       "{}: {} frames, {} in contact; {}\n", summary.name, summary.frames, summary.frames_in_contact,
       summary.frames_probed > 0 ? fmt::format("{} compared with truth", summary.frames_probed)
-                                : "errors are not measured, the truth probe is off");
+                                : "errors are not measured, no frame is compared with truth");
   for (const auto& row : rows) {
     for (std::size_t column = 0; column < row.size(); ++column) {
       std::size_t width = 0;

@@ -54,8 +54,12 @@ std::vector<std::vector<double>> time_per_frame(const MethodRecord& record) {
       const double search = times.global_search[s] + zero_where_unset(times.first_reduction[s]) +
                             zero_where_unset(times.second_tracking[s]);
       LMDBENCH_EXPECTS(end >= begin && end <= row.size(), "searches in another order than their frames");
+      // The path may end soon after the last one.
+      const std::size_t before = s > 0 && s + 1 == record.searches.size()
+                                     ? begin - static_cast<std::size_t>(record.searches[s - 1].frame)
+                                     : 0;
       for (std::size_t frame = begin; frame < end; ++frame)
-        row[frame] += search / static_cast<double>(end - begin);
+        row[frame] += search / static_cast<double>(std::max(end - begin, before));
     }
     rows.push_back(std::move(row));
   }

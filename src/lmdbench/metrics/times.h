@@ -14,7 +14,7 @@ namespace lmdbench {
 /// Processor time per haptic frame [s], one row a measured repetition: the local update and the
 /// frame's share of the global searches. The paper's global thread is busy between two searches, so
 /// a search (with first reduction and second tracking) is spread evenly over the frames to the
-/// next.
+/// next; the last one over as many as the one before, if the path ends sooner.
 std::vector<std::vector<double>> time_per_frame(const MethodRecord& record);
 
 /// A frame or search counts with the median of its measured repetitions, so that other work of the

@@ -32,7 +32,8 @@ class VirtualPhantom {
   /// Largest rendered force [N] of a sum that the profile clips to `largest_sum`.
   double limit(double largest_sum) const { return std::min(largest_sum, device_.maximum_force.value); }
 
-  /// Clips the length of the summed force to the limit, keeping its direction (paper, section 4.5;
+  /// Clips the length of the summed force to the limit where it is longer by more than rounding
+  /// (1e-12 of it), keeping its direction (paper, section 4.5;
   /// decision E10, ours: clips the sum, not its components and not single LMDs). NaN stays NaN. The
   /// torque is clipped likewise, to the device's largest: other motors render it. A device without
   /// that figure actuates three degrees of freedom and renders no torque (paper, section 5).

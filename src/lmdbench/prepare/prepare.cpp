@@ -150,7 +150,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
     lengthen(input.poses, prepared.times, experiment.frame_rate_hz, *experiment.realtime->seconds,
              experiment.file.string());
   if (!loaded.movers.empty()) {
-    const MoverPoses poses = mover_poses(experiment, loaded.movers, input.poses, path->frames.size());
+    const MoverPoses poses = mover_poses(experiment, loaded.movers, input.poses, path->frames);
     append(prepared.files, poses.files);
     append(prepared.warnings, poses.warnings);
     input.motion.movers = std::make_shared<const MoverPlay>(make_play(loaded.movers, poses.of_mover));

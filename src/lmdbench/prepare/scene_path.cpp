@@ -162,7 +162,7 @@ void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame
 }
 
 MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& movers,
-                       const std::vector<Pose>& held, std::size_t path_frames) {
+                       const std::vector<Pose>& held, const Path& path) {
   MoverPoses result;
   if (movers.size() > MOST_MOVER_POSES / held.size())
     throw UsageError(experiment.file.string(), experiment.objects[movers.back().object].place,
@@ -177,20 +177,26 @@ MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& m
       own = held;
     } else if (object.motion.kind == MotionKind::PATH) {
       if (mover.which == 0) {
-        const FramePath path =
-            read_path(object.motion, "path:" + object.place.substr(1), experiment.frame_rate_hz, path_frames);
-        if (path.frames.size() < path_frames)
+        const FramePath its =
+            read_path(object.motion, "path:" + object.place.substr(1), experiment.frame_rate_hz, path.size());
+        const double start = path.front().time, its_start = its.frames.front().time;
+        if (std::abs(its_start - start) * experiment.frame_rate_hz > 0.5)
+          throw InputError(experiment.file.string(), object.motion.path_place,
+                           fmt::format("begins at {:.6f} s, but the path of the held object at {:.6f} s",
+                                       its_start, start),
+                           "let both begin at one time: cut them or shift their times");
+        if (its.frames.size() < path.size())
           throw InputError(
               experiment.file.string(), object.motion.path_place,
-              fmt::format("ends after {} frames of the {} that the run has", path.frames.size(), path_frames),
-              fmt::format("take a longer path, or run fewer frames (--set /frames={})", path.frames.size()));
+              fmt::format("ends after {} frames of the {} that the run has", its.frames.size(), path.size()),
+              fmt::format("take a longer path, or run fewer frames (--set /frames={})", its.frames.size()));
         read.clear();
-        for (const TimedPose& timed : path.frames) read.push_back(timed.pose);
+        for (const TimedPose& timed : its.frames) read.push_back(timed.pose);
         there_and_back(read, held.size());
-        result.files.push_back(path.file);
-        if (!path.gaps.empty())
+        result.files.push_back(its.file);
+        if (!its.gaps.empty())
           result.warnings.push_back(fmt::format("{}: its path has {} gaps, in which the mesh is held",
-                                                object.place, path.gaps.size()));
+                                                object.place, its.gaps.size()));
       }
       own = read;
     } else {

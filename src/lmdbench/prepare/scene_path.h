@@ -49,9 +49,10 @@ struct MoverPoses {
 };
 
 /// @param held poses of the held object
-/// @param path_frames of its path, which it may repeat there and back, as the other movers then do
-/// @throws InputError for a bad or too short path; UsageError for more poses than memory holds
+/// @param path its path, which it may repeat there and back, as the other movers then do
+/// @throws InputError for a bad path, a shorter one and one that begins at another time; UsageError
+/// for more poses than memory holds
 MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& movers,
-                       const std::vector<Pose>& held, std::size_t path_frames);
+                       const std::vector<Pose>& held, const Path& path);
 
 }  // namespace lmdbench

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -32,6 +33,28 @@ std::array<double, FORCE_LAW_COUNT> change_of_force(const TruthFrame& here, cons
     change[law] = (next.force[law] - here.force[law]).norm();
   return change;
 }
+
+namespace {
+
+/// The forces of the frame's set.
+/// @param contacts that have searched it
+void render_laws(TruthFrame& here, ContactFinder& contacts, const Scene& scene, const DriverInput& input,
+                 ForceProfile profile, const Pose& X_WM) {
+  const Vec3 reference_W = RigidTransform(X_WM).point(input.reference_M);
+  for (const ForceLaw law : force_laws()) {
+    const auto index = static_cast<std::size_t>(law);
+    profile.law = law;
+    const Wrench wrench = contacts.combine(here.lmds, profile, reference_W);
+    here.force[index] = input.device.render(wrench, profile.largest_sum).force;
+    here.torque[index] = wrench.torque;
+    if (input.motion.movers)
+      std::ranges::transform(
+          render_movers(contacts, scene, X_WM, *input.motion.movers, profile, input.device),
+          std::back_inserter(here.movers[index]), &MoverFrame::force);
+  }
+}
+
+}  // namespace
 
 std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
                                         const std::function<TruthFrame(std::int64_t frame)>& truth_at,
@@ -57,9 +80,6 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input
   const std::unique_ptr<Method> exhaustive = make_method("exhaustive", bodies.scene());
   ContactFinder contacts(aggregation, bodies.scene());
   WorkCounters ignored;
-  const auto rendered = [&](const Wrench& wrench) {
-    return input.device.render(wrench, profile.largest_sum).force;
-  };
   std::optional<Pose> searched;  // pose of the last search, ...
   TruthFrame last;               // ... and its result
   const auto search = [&](std::int64_t frame) -> TruthFrame {
@@ -70,18 +90,11 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input
     if (reuse_repeated && searched && same_pose(*searched, X_WM)) return last;
     bodies.to_frame(frame);
     TruthFrame found;
-    if (!is_empty) contacts.search(*exhaustive, X_WM, found.lmds, ignored);
-    const Vec3 reference_W = RigidTransform(X_WM).point(input.reference_M);
-    for (const ForceLaw law : force_laws()) {
-      const auto index = static_cast<std::size_t>(law);
-      ForceProfile with_law = profile;
-      with_law.law = law;
-      if (!is_empty) found.force[index] = rendered(contacts.combine(found.lmds, with_law, reference_W));
-      if (play == nullptr) continue;
-      found.movers[index].resize(play->count(), Vec3::Zero());
-      if (is_empty) continue;
-      std::ranges::transform(render_movers(contacts, bodies.scene(), X_WM, *play, with_law, input.device),
-                             found.movers[index].begin(), &MoverFrame::force);
+    if (is_empty) {
+      for (std::vector<Vec3>& forces : found.movers) forces.resize(play->count(), Vec3::Zero());
+    } else {
+      contacts.search(*exhaustive, X_WM, found.lmds, ignored);
+      render_laws(found, contacts, bodies.scene(), input, profile, X_WM);
     }
     if (reuse_repeated) {
       searched = X_WM;
@@ -299,45 +312,22 @@ TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& 
   for (std::int64_t frame = 0; frame < frames; ++frame) {
     const Pose& X_WM = run.input.poses[static_cast<std::size_t>(frame)];
     bodies.to_frame(frame);
-    LmdSet& set = truth.sets.emplace_back();
-    contacts.search(*certified, X_WM, set, ignored);
-    const Vec3 reference_W = RigidTransform(X_WM).point(run.input.reference_M);
-    for (const ForceLaw law : force_laws()) {
-      ForceProfile profile = run.profiles.front().force;
-      profile.law = law;
-      truth.wrenches[static_cast<std::size_t>(law)].push_back(contacts.combine(set, profile, reference_W));
-    }
+    TruthFrame here;
+    here.frame = frame;
+    contacts.search(*certified, X_WM, here.lmds, ignored);
+    render_laws(here, contacts, bodies.scene(), run.input, run.profiles.front().force, X_WM);
     // Spreads `checks` frames evenly over `frames`, the first one included.
     if (frame * checks / frames != (frame - 1) * checks / frames || (frame == 0 && checks > 0)) {
       other.clear();
       exhaustive->search(X_WM, other, ignored);
       ++truth.checked_frames;
-      if (!agreement(other, set, Match::SAME_FEATURES, run.scene()).exact()) ++truth.wrong_frames;
+      if (!agreement(other, here.lmds, Match::SAME_FEATURES, run.scene()).exact()) ++truth.wrong_frames;
     }
+    if (frame > 0) truth.frames.back().force_jump = change_of_force(truth.frames.back(), here);
+    truth.frames.push_back(std::move(here));
     if (progress && !progress(frame + 1, frames)) throw Interrupted();
   }
   return truth;
-}
-
-std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first) {
-  const auto rendered = [&](std::size_t frame, std::size_t law) {
-    return run.input.device.render(truth.wrenches[law][frame], run.profiles.front().force.largest_sum).force;
-  };
-  std::vector<TruthFrame> result;
-  for (auto frame = static_cast<std::size_t>(first); frame < truth.sets.size(); ++frame) {
-    TruthFrame here;
-    here.frame = static_cast<std::int64_t>(frame);
-    here.lmds = truth.sets[frame];
-    for (const ForceLaw law : force_laws()) {
-      const auto index = static_cast<std::size_t>(law);
-      here.force[index] = rendered(frame, index);
-      here.torque[index] = truth.wrenches[index][frame].torque;
-    }
-    if (!result.empty()) result.back().force_jump = change_of_force(result.back(), here);
-    result.push_back(std::move(here));
-  }
-  if (!result.empty()) result.pop_back();
-  return result;
 }
 
 }  // namespace lmdbench

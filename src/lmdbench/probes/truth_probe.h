@@ -29,7 +29,7 @@ struct TruthFrame {
   std::int64_t frame = 0;
   LmdSet lmds;
   std::array<Vec3, FORCE_LAW_COUNT> force = no_forces();  ///< Rendered, under each law [N].
-  /// Torque on the moving mesh before clipping, under each law [N m]; only of `truth_frames`.
+  /// Torque on the moving mesh before clipping, under each law [N m].
   std::array<Vec3, FORCE_LAW_COUNT> torque = no_forces();
   /// |force at the next frame - force| [N]; NaN where no force is the true one in either frame.
   std::array<double, FORCE_LAW_COUNT> force_jump{};
@@ -60,7 +60,8 @@ struct TruthComparison {
 /// sets, which share no search code with the method, check its sets.
 struct CompleteTruth {
   std::string label;  ///< Of the method.
-  ForcesByLaw force;  ///< Rendered, one a frame under each law [N].
+  /// Rendered, one a frame under each law [N]; NaN where triangles intersect.
+  ForcesByLaw force;
   std::vector<std::int64_t> lmd_count;
 };
 
@@ -113,11 +114,8 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
 /// Truth in every frame. A probe on a stride sees every tenth event, so methods look worse, or
 /// better, than they are. `certified` gives the true set in microseconds; `exhaustive`, which
 /// shares no search code with it, checks some frames of this scene.
-
 struct TrueSets {
-  std::vector<LmdSet> sets;  ///< One a frame, as are
-  std::array<std::vector<Wrench>, FORCE_LAW_COUNT>
-      wrenches;                     ///< the moving mesh's wrenches from it under each law.
+  std::vector<TruthFrame> frames;   ///< All; the last one has no jump.
   std::int64_t checked_frames = 0;  ///< Compared with the exhaustive set.
   std::int64_t wrong_frames = 0;    ///< Those with another set of feature pairs.
 };
@@ -125,9 +123,5 @@ struct TrueSets {
 /// @param checks   frames to compare with the exhaustive set, evenly spread, or all
 /// @param progress may return false to stop, which throws Interrupted
 TrueSets true_sets(const PreparedRun& run, std::int64_t checks, const Progress& progress);
-
-/// The true forces of the sets, at frames from `first` on that have a next one.
-/// @param run its profile and device render
-std::vector<TruthFrame> truth_frames(const TrueSets& truth, const PreparedRun& run, std::int64_t first);
 
 }  // namespace lmdbench

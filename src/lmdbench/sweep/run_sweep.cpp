@@ -49,7 +49,6 @@ class SharedScene {
   struct Truth {
     std::unique_ptr<PreparedRun> other;  ///< Unset where truth is of the same meshes.
     TrueSets sets;
-    std::vector<TruthFrame> frames;
   };
 
   /// True sets of the meshes that the point names for truth.
@@ -67,7 +66,10 @@ class SharedScene {
         throw UsageError(sweep.file.string(), "/series", "truth has another number of frames than the point",
                          "let truth differ from its series in meshes only");
       truth.sets = true_sets(run, sweep.truth_check_frames, progress);
-      truth.frames = truth_frames(truth.sets, run, sweep.from_frame);
+      // Those that count; each is compared with its next one.
+      std::vector<TruthFrame>& frames = truth.sets.frames;
+      frames.pop_back();
+      frames.erase(frames.begin(), frames.begin() + std::min(sweep.from_frame, std::ssize(frames)));
     } catch (...) {
       truths_.erase(entry);
       throw;
@@ -111,21 +113,19 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
   const RunFrames frames{scene.in_contact(), scene.run().input.frame_rate_hz,
                          scene.run().profiles.front().force.maximum_force};
   const std::vector<TruthComparison> rows =
-      compare_with_truth(truth.frames, record, choice.force_law, scene.run_of(truth).scene());
+      compare_with_truth(truth.sets.frames, record, choice.force_law, scene.run_of(truth).scene());
   MethodSummary summary;
   summarise_counts(summary, record, frames);
-  summarise_errors(summary, choice.force_law, truth.frames, rows, frames);
+  summarise_errors(summary, choice.force_law, truth.sets.frames, rows, frames);
   if (truth.other) erase_feature_numbers(summary);
-  const StepNumbers steps = count_steps(record, choice.force_law, truth.frames, rows, scene.run(),
+  const StepNumbers steps = count_steps(record, choice.force_law, truth.sets.frames, rows, scene.run(),
                                         scene.run_of(truth), scene.in_contact());
-  const auto events = [&](double count) {
-    return count_events(static_cast<std::int64_t>(count), steps.seconds_in_contact);
-  };
-  set_jumps(summary, events(steps.jumps));
-  set_true_jumps(summary, events(steps.true_jumps),
-                 std::ranges::count_if(truth.frames, [&](const TruthFrame& frame) {
-                   return frames.in_contact[static_cast<std::size_t>(frame.frame)];
-                 }));
+  set_jumps(summary, count_events(static_cast<std::int64_t>(steps.jumps), steps.seconds_in_contact));
+  // Steps into contact count, too.
+  if (const double known = summary.true_jump_frames; known > 0.0)
+    set_true_jumps(summary,
+                   count_events(static_cast<std::int64_t>(steps.true_jumps), known / frames.frame_rate_hz),
+                   static_cast<std::int64_t>(known));
   PointErrors errors;
   for (const SummaryNumber& number : summary_numbers())
     if (const double value = summary.*number.value; !std::isnan(value))

@@ -178,12 +178,13 @@ def as_poses(poses: PosesLike) -> _lmdbench.Poses:
 
 def query(moving: MeshLike, fixed: Union[MeshLike, list[MeshLike]], poses: PosesLike, cutoff: float,
           method: str = "certified", **options: object) -> LmdSets:
-    """The LMD set of every pose, each from scratch.
+    """The LMD set of every pose.
 
     moving, fixed: a file name, a pair (vertices (V, 3), triangles (T, 3)) or a Mesh; several fixed ones as a list.
     poses:   X_WM of the moving mesh, (N, 4, 4) or (4, 4), for column vectors; or the name of a TUM file.
     cutoff:  LMDs up to this distance [m], above 0.
-    method:  one of `method_names()`; options are its own (`lmdbench query --help`).
+    method:  one of `method_names()`; options are its own (`lmdbench query --help`). `certified` reuses work of the pose
+             before, unless frame_coherence=False.
 
     Returns a sequence of N structured arrays (LMD_DTYPE), without copying them.
     Raises UsageError, InputError (a mesh, path or pose), EnvironmentError (a method that the build lacks).
