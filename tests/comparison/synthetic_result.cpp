@@ -151,7 +151,7 @@ std::filesystem::path SyntheticResult::write(const std::filesystem::path& file) 
   writer.attribute("/provenance/machine", "processor", processor);
   writer.attribute("/provenance", "compiler", "GNU 12");
   writer.write({"/provenance/experiment", "1", "experiment"}, {experiment_of(*this).dump()});
-  std::vector<std::string> roles{"path", "mesh:moving"}, hashes{"ff", moving_hash};
+  std::vector<std::string> roles{"path", "mesh:" + mesh}, hashes{"ff", moving_hash};
   if (!vertices_hash.empty()) {
     roles.emplace_back("vertices:moving");
     hashes.push_back(vertices_hash);

@@ -15,8 +15,9 @@ namespace lmdbench::testing {
 struct SyntheticResult {
   std::vector<std::string> methods{"original", "certified"};  ///< In the order of the experiment
   double cutoff = 0.01;                                       ///< As in the experiment
-  double scene_cutoff = 0.0;  ///< As the program took it; 0: as in the experiment
-  bool sweep = false;         ///< Whether there is a group /sweep, as `work-precision` writes
+  double scene_cutoff = 0.0;    ///< As the program took it; 0: as in the experiment
+  bool sweep = false;           ///< Whether there is a group /sweep, as `work-precision` writes
+  std::string mesh = "moving";  ///< As the experiment names its file
   std::string moving_hash = "aa";
   std::string moving = "{}";               ///< JSON of /moving in the experiment
   std::string vertices_hash;               ///< Of the files that deform it; "" for none

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
 #include <iterator>
 #include <map>
 #include <string_view>
@@ -48,8 +47,7 @@ nlohmann::json deciding_part(const ResultReader& file) {
   const auto tell_mesh = [&](nlohmann::json& mesh) {
     if (!mesh.is_object()) return;
     if (const nlohmann::json name = mesh.value("mesh", nlohmann::json()); name.is_string()) {
-      const auto found =
-          inputs.find("mesh:" + std::filesystem::path(name.get<std::string>()).stem().string());
+      const auto found = inputs.find("mesh:" + name.get<std::string>());
       if (found != inputs.end()) mesh["mesh"] = found->second;
     }
     nlohmann::json& deformation = mesh["deformation"];
