@@ -164,6 +164,27 @@ TEST(FlatContacts, SharedFindsTheSaddleOfParallelFaces) {
   }
 }
 
+/// Merges are found in the frame in which methods search: else this far from the origin the turn of
+/// the indices' pose moves the mesh, and some are lost.
+TEST(FlatContacts, SharedForcesAreTheSameFarFromTheOrigin) {
+  const TriangleMesh torus = make_torus(1.5, 0.4, 14, 9);
+  const TriangleMesh rod =
+      make_sleeve(circle_outline(1.0), nullptr, {.height = 6.0, .around = 10, .layers = 1});
+  const auto moved_by = [](TriangleMesh mesh, const Vec3& offset) {
+    for (Vec3& vertex : mesh.vertices) vertex += offset;
+    return mesh;
+  };
+  const Vec3 offset = 131072.0 * Vec3(1.0, -2.0, 0.25);
+  Rendered near(shared_law(), testing::make_scene(torus, rod, 0.3));
+  Rendered far(shared_law(), testing::make_scene(moved_by(torus, offset), moved_by(rod, offset), 0.3));
+  for (int k = 0; k < 24; ++k) {
+    Pose X_WM = testing::moved(0.02 + 0.0005 * k, 0.01 + 0.0002 * k, 0.0), moved = X_WM;
+    X_WM.rotation = moved.rotation = Eigen::AngleAxisd(6e-6 * k, Vec3(1, 2, 3).normalized());
+    moved.translation += offset - moved.rotation * offset;
+    EXPECT_LT((far.at(moved) - near.at(X_WM)).norm(), 1e-3) << k;
+  }
+}
+
 TEST(Layered, ARodInABoreHasOneForceHoweverManyFacets) {
   const double fine = force_in_bore(64, 96);
   EXPECT_NEAR(fine, smooth_force(0.001, 0.0003, 0.00015), 0.03 * fine);

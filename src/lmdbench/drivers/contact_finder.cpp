@@ -52,9 +52,7 @@ ContactFinder::ContactFinder(const Aggregation& aggregation, Scene scene, const 
       patch_cutoff_(layered.patch_cutoff),
       minimum_area_(aggregation.needs == AggregationNeeds::SURFACE
                         ? minimum_area_of(scene_, layered.minimum_area_share)
-                        : 0.0),
-      merge_finder_(scene_),
-      sampler_(scene_, layered.patch_cutoff) {}
+                        : 0.0) {}
 
 void ContactFinder::search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   if (aggregation_.needs == AggregationNeeds::MINIMA) return method.search(X_WM, lmds, counters);
@@ -62,14 +60,22 @@ void ContactFinder::search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkC
   LMDBENCH_ENSURES(std::ranges::is_sorted(critical_, lmd_less, &CriticalPair::pair),
                    "a method that gives critical pairs in its own order");
   lmds = minima_of(critical_);
-  if (aggregation_.needs == AggregationNeeds::CRITICAL_PAIRS) return;
-  if (scene_.several_move() || scene_.is_world()) return find_pair_by_pair(X_WM);
-  merge_finder_.find(X_WM, critical_, merges_);
-  if (aggregation_.needs == AggregationNeeds::SURFACE)
-    sampler_.find(X_WM, critical_, merges_, merge_finder_, samples_);
+  if (aggregation_.needs != AggregationNeeds::CRITICAL_PAIRS) find_merges(X_WM);
 }
 
-void ContactFinder::find_pair_by_pair(const Pose& X_WM) {
+const NearFrame& ContactFinder::near_frame_of(const ObjectPair& pair) {
+  const Scene of_pair = pair.scene_of(scene_);
+  const Body &moving = *of_pair.moving, &fixed = of_pair.fixed_body();
+  const std::uint64_t deformations = std::uint64_t{moving.deformations()} + fixed.deformations();
+  const auto found = near_.find({&moving, &fixed});
+  // One that does not differ has the bodies themselves.
+  if (found != near_.end() && (!found->second.frame.differs() || found->second.deformations == deformations))
+    return found->second.frame;
+  return near_.insert_or_assign({&moving, &fixed}, Near{NearFrame(of_pair), deformations})
+      .first->second.frame;
+}
+
+void ContactFinder::find_merges(const Pose& X_WM) {
   merges_.clear();
   samples_.clear();
   std::map<std::int32_t, std::vector<std::size_t>> by_pair;
@@ -79,19 +85,24 @@ void ContactFinder::find_pair_by_pair(const Pose& X_WM) {
   std::vector<SurfaceSample> samples;
   for (const auto& [number, places] : by_pair) {
     const ObjectPair pair = ObjectPair::of(number, scene_);
-    const Pose &X_WA = scene_.pose(pair.mover, X_WM), &X_WB = scene_.pose(pair.other, X_WM);
-    const PlacedPair place{RigidTransform(X_WB), Vec3::Zero(), relative_pose(X_WB, X_WA)};
+    const NearFrame& near = near_frame_of(pair);
+    PlacedPair place = PlacedPair::of(scene_, pair, X_WM);
+    place.X_FM = near.to_near(place.X_FM);
+    place.origin_F = near.origin_W();
     own.clear();
     for (const std::size_t i : places) place.to_mesh(own.emplace_back(critical_[i]).pair);
-    MergeFinder finder(pair.scene_of(scene_));
+    MergeFinder finder(near.scene());
     finder.find(place.X_FM, own, merges);
     for (const Merge& merge : merges)
       merges_.push_back({places[merge.saddle], places[merge.first], places[merge.second]});
     if (aggregation_.needs != AggregationNeeds::SURFACE) continue;
-    SurfaceSampler(pair.scene_of(scene_), patch_cutoff_).find(place.X_FM, own, merges, finder, samples);
+    SurfaceSampler(near.scene(), patch_cutoff_).find(place.X_FM, own, merges, finder, samples);
     for (SurfaceSample& sample : samples) {
-      sample.direction = place.X_WF.direction(sample.direction);
-      sample.point_moving = place.X_WF.point(sample.point_moving);
+      sample.point_moving += place.origin_F;
+      if (!place.is_world) {
+        sample.direction = place.X_WF.direction(sample.direction);
+        sample.point_moving = place.X_WF.point(sample.point_moving);
+      }
       sample.minimum = places[sample.minimum];
       samples_.push_back(sample);
     }

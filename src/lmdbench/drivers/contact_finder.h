@@ -4,10 +4,13 @@
 
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/near_frame.h>
 #include <lmdbench/lmd/scene.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -23,7 +26,8 @@ struct LayeredChoice {
 /// Finds what an aggregation needs of a pose and combines it into force and torque.
 ///
 /// A force is of a pair of objects: merges and patches of surface are found pair by pair, with
-/// instances or several movers in the second one's frame. An object feels the sum of its pairs.
+/// instances or several movers in the second one's frame, and near the meshes (NearFrame), as
+/// methods search. An object feels the sum of its pairs.
 class ContactFinder {
  public:
   /// @param scene  the searching method's; read if the aggregation needs more than critical pairs
@@ -71,13 +75,18 @@ class ContactFinder {
 
   bool is_sum() const { return aggregation_.name == sum_law().name; }
   void take(const LmdSet& lmds);
-  void find_pair_by_pair(const Pose& X_WM);
+  void find_merges(const Pose& X_WM);
+  const NearFrame& near_frame_of(const ObjectPair& pair);
 
   const Aggregation& aggregation_;
   Scene scene_;
   double patch_cutoff_, minimum_area_;
-  MergeFinder merge_finder_;
-  SurfaceSampler sampler_;
+  struct Near {
+    NearFrame frame;
+    std::uint64_t deformations;
+  };
+  /// Of two meshes in the frame in which methods search them.
+  std::map<std::pair<const Body*, const Body*>, Near> near_;
   CriticalSet critical_;
   std::vector<Merge> merges_;
   std::vector<SurfaceSample> samples_;
