@@ -64,14 +64,13 @@ void ContactFinder::search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkC
 }
 
 const NearFrame& ContactFinder::near_frame_of(const ObjectPair& pair) {
-  const Scene of_pair = pair.scene_of(scene_);
-  const Body &moving = *of_pair.moving, &fixed = of_pair.fixed_body();
+  const Body &moving = *scene_.body(pair.mover), &fixed = *scene_.body(pair.other);
   const std::uint64_t deformations = std::uint64_t{moving.deformations()} + fixed.deformations();
   const auto found = near_.find({&moving, &fixed});
   // One that does not differ has the bodies themselves.
   if (found != near_.end() && (!found->second.frame.differs() || found->second.deformations == deformations))
     return found->second.frame;
-  return near_.insert_or_assign({&moving, &fixed}, Near{NearFrame(of_pair), deformations})
+  return near_.insert_or_assign({&moving, &fixed}, Near{NearFrame(pair.scene_of(scene_)), deformations})
       .first->second.frame;
 }
 

@@ -19,7 +19,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace lmdbench {
@@ -61,7 +60,7 @@ Pose rigid(Pose pose, const std::string& place) {
     throw UsageError(
         "", place, "is no rigid transform of finite size",
         fmt::format("give a unit quaternion and a translation up to {:g} m", LARGEST_COORDINATE));
-  if (std::abs(length - 1.0) > 4.0 * std::numeric_limits<double>::epsilon()) pose.rotation.normalize();
+  normalize_beyond_rounding(pose.rotation);
   return pose;
 }
 

@@ -27,18 +27,11 @@ constexpr std::size_t COLUMN_COUNT = 8;
 constexpr std::size_t QUOTED_LENGTH = 40;  ///< Of a word in a message: it may be binary.
 constexpr std::string_view BLANKS = " \t\r";
 
-/// A quaternion normalised in double precision has |q|^2 within this of 1, and keeps its bits.
-constexpr double UNIT_ROUNDING = 8.0 * std::numeric_limits<double>::epsilon();
-
 /// What is wrong with a pose and what to do about it; empty when nothing is.
 struct Complaint {
   std::string problem;
   std::string remedy;
 };
-
-double squared_length_error(const Eigen::Quaterniond& rotation) {
-  return std::abs(rotation.squaredNorm() - 1.0);
-}
 
 Complaint complaint_about(const TimedPose& timed, const TimedPose* previous) {
   if (!std::isfinite(timed.time) || !timed.pose.translation.allFinite() ||
@@ -99,6 +92,11 @@ void append_number(std::string& text, double value, std::optional<int> decimals)
 
 }  // namespace
 
+void normalize_beyond_rounding(Eigen::Quaterniond& rotation) {
+  constexpr double ROUNDING = 8.0 * std::numeric_limits<double>::epsilon();  // of |q|^2
+  if (std::abs(rotation.squaredNorm() - 1.0) > ROUNDING) rotation.normalize();
+}
+
 Path parse_tum(std::string_view text, const std::string& name) {
   Path path;
   for (std::size_t number = 1; !text.empty(); ++number) {
@@ -119,7 +117,7 @@ Path parse_tum(std::string_view text, const std::string& name) {
     timed.pose.rotation.coeffs() = Eigen::Vector4d(values[4], values[5], values[6], values[7]);
     const Complaint complaint = complaint_about(timed, path.empty() ? nullptr : &path.back());
     if (!complaint.problem.empty()) throw InputError(name, place, complaint.problem, complaint.remedy);
-    if (squared_length_error(timed.pose.rotation) > UNIT_ROUNDING) timed.pose.rotation.normalize();
+    normalize_beyond_rounding(timed.pose.rotation);
     path.push_back(timed);
   }
   if (path.empty())

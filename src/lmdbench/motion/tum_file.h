@@ -17,6 +17,9 @@ namespace lmdbench {
 /// error of the data.
 inline constexpr double QUATERNION_LENGTH_TOLERANCE = 1e-3;
 
+/// Brings a quaternion to unit length. One that was normalised in double precision keeps its bits.
+void normalize_beyond_rounding(Eigen::Quaterniond& rotation);
+
 /// Reads a TUM trajectory: lines `time x y z qx qy qz qw` (seconds, metres), separated by blanks or
 /// tabs; `#` begins a comment line; empty lines are skipped; LF or CRLF. Numbers are read with '.'
 /// whatever the locale. A quaternion that is unit to rounding keeps its bits, so reading what
