@@ -131,6 +131,16 @@ class Surroundings(unittest.TestCase):
                 self.assert_works_or_says_why(
                     self.run_program(["mesh", "info", self.small_mesh("m.obj")], wrap=limited, env=environment))
 
+    def test_closed_standard_descriptors(self):
+        def closed(command):
+            return ["sh", "-c", 'exec "$0" "$@" <&- >&- 2>&-', *command]
+        done = self.run_program(self.short_run("r.h5"), wrap=closed)
+        self.assertEqual(done.returncode, ENVIRONMENT, "its table is lost")
+        self.assertEqual([file.name for file in self.folder.iterdir()], ["r.h5"])
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertIn("methods", file)
+        self.assertEqual(self.run_program(self.short_run("r.h5", "-q"), wrap=closed).returncode, DONE)
+
     def test_no_home_and_odd_temporary_folders(self):
         bare = {"PATH": os.environ["PATH"]}
         done = self.run_program(self.short_run("r.h5"), env=bare)

@@ -125,6 +125,16 @@ class AgainstTheProgram(Files):
             problem = str(caught.exception).split(": ", 1)[1].split(" (remedy")[0]
             self.assertIn(problem.split(": ")[-1], done.stderr)
 
+    def test_options_may_be_numbers_of_numpy(self):
+        of_numpy = {"search_threads": np.int64(1), "second_tracking": np.bool_(False)}
+        sets = [lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "improved", **options)[0]
+                for options in (of_numpy, {"search_threads": 1, "second_tracking": False})]
+        np.testing.assert_array_equal(*sets)
+        with self.assertRaises(lmdbench.UsageError):
+            lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "improved", search_threads=np.float64(1.5))
+        with self.assertRaisesRegex(TypeError, "type set .*remedy"):
+            lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "improved", search_threads={1})
+
 
 class Arrays(Files):
     def test_sets_are_views_that_outlive_their_search(self):

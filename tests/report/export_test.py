@@ -7,6 +7,7 @@ grid gives it, every index a point, every cell its end; and the numbers are thos
 import json
 import os
 import pathlib
+import shutil
 import sys
 import unittest
 import xml.etree.ElementTree as ET
@@ -122,6 +123,39 @@ class ExportTest(Scratch):
         mine.write_text("mine")
         self.call("export", result, "--out", out, code=2)
         self.assertEqual(mine.read_text(), "mine")
+
+    def test_datasets_of_another_size_are_told(self):
+        """Edited results, whose hash is taken out: each dataset that is read, a row short, a row long, empty and with wild numbers."""
+        result, _, _ = self.run_and_export("sizes", "/record/lmds=true")
+        inside = self.path("inside.h5")
+        self.call("run", "experiments/extreme/start-inside.json", "--out", inside, "--set", "/frames=20",
+                  "--set", "/record/polylines={\"stride_frames\": 5}")
+        lists = ["distance", "point_moving", "point_fixed", "feature_moving_kind", "feature_fixed_kind", "frame_offset"]
+        names = ["path/position", "path/orientation", "methods/improved/force", "provenance/experiment", "provenance/inputs/file",
+                 "provenance/inputs/sha256", *[f"methods/improved/lmds/{name}" for name in lists],
+                 *[f"polylines/{name}" for name in ("frame_offset", "point_offset", "closed", "point")]]
+        changes = [(name, change) for name in names for change in (lambda values: values[:-1], lambda values: values[:0],
+                                                                   lambda values: np.append(values, values[-1:], axis=0))]
+        changes += [(name, lambda values: -values) for name in ("methods/improved/lmds/frame_offset", "polylines/point_offset")]
+        changes += [(name, lambda values: values + 10**12) for name in ("methods/improved/lmds/frame_offset", "polylines/frame")]
+        changes += [(name, lambda values: np.append([-5], values[1:])) for name in ("polylines/frame_offset", "polylines/point_offset")]
+        changes += [("polylines/frame_offset", lambda values: np.concatenate([values[:1], values[1:2] + 10**9, values[2:]])),
+                    ("polylines/frame", lambda values: -1 - values),
+                    ("path/time path/position path/orientation", lambda values: values[:0])]
+        for name, change in changes:
+            with self.subTest(dataset=name):
+                edited = shutil.copy(inside if name.startswith("polylines") else result, self.path("edited.h5"))
+                with h5py.File(edited, "r+") as h5:
+                    del h5.attrs["content_sha256"]
+                    for dataset in name.split():
+                        attributes, values = dict(h5[dataset].attrs), change(np.atleast_1d(h5[dataset][()]))
+                        kind = h5[dataset].dtype
+                        del h5[dataset]
+                        h5.create_dataset(dataset, data=values, dtype=kind).attrs.update(attributes)
+                done = call(PROGRAM, "-q", "export", edited, "--out", self.path("vtk"), "--frames", "8", cwd=ROOT)
+                self.assertEqual(done.returncode, 3, f"{name}: {done.stderr}")
+                self.assertRegex(done.stderr, rf"edited\.h5: /{name.split()[0].split('/')[0]}.*remedy: ")
+        self.assertIn("holds no frame", done.stderr)
 
     def own_run(self):
         """A result of a project's folder, run there under relative names: mesh, manifest and path are files of the project."""

@@ -5,7 +5,9 @@
 #include <lmdbench/cli/commands.h>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -16,6 +18,13 @@
 #include <system_error>
 
 namespace {
+
+/// Where a standard descriptor is closed, the next file that opens would take its number, and what
+/// is printed. Reading finds the end; writing fails, so that the exit code tells of lost output.
+void open_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) == -1) static_cast<void>(open("/dev/null", O_RDONLY));
+}
 
 int exit_with(lmdbench::ExitCode code, const std::string& message) {
   spdlog::error("{}", message);
@@ -43,6 +52,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using lmdbench::ExitCode;
+  open_standard_descriptors();
   lmdbench::set_up_talk(0);
   // At the file size limit (ulimit -f) the write fails, but the program continues.
   std::signal(SIGXFSZ, SIG_IGN);

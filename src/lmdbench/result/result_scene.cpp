@@ -7,6 +7,7 @@
 #include <lmdbench/prepare/load_scene.h>
 #include <lmdbench/prepare/prepare.h>
 #include <lmdbench/result/result_scene.h>
+#include <lmdbench/result/sized_datasets.h>
 #include <lmdbench/scene/broad_phase.h>
 
 #include <algorithm>
@@ -69,8 +70,8 @@ fs::path find_recorded_file(const fs::path& name, const std::string& sha256, con
 /// Files of the meshes that the run read, with the same bytes; by names of the meshes.
 std::map<std::string, std::string> recorded_meshes(const ResultReader& result, const Places& places) {
   const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
-  const std::vector<std::string> files = result.texts("/provenance/inputs/file");
-  const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
+  const std::vector<std::string> files = texts_of_size(result, "/provenance/inputs/file", roles.size());
+  const std::vector<std::string> hashes = texts_of_size(result, "/provenance/inputs/sha256", roles.size());
   std::map<std::string, std::string> meshes;
   for (std::size_t i = 0; i < roles.size(); ++i)
     if (roles[i].starts_with(MESH_ROLE))
@@ -94,10 +95,8 @@ Pose recorded_pose(const std::vector<double>& p, const std::vector<double>& q, s
 ResultTrack track_of(const ResultReader& result, const std::string& method, std::size_t most_frames) {
   const std::string group = method.empty() ? "/path" : "/methods/" + method + "/path";
   const std::vector<double> times = result.reals("/path/time");
-  const std::vector<double> p = result.reals(group + "/position");
-  const std::vector<double> q = result.reals(group + "/orientation");
-  if (p.size() != 3 * times.size() || q.size() != 4 * times.size())
-    throw InputError(result.file().string(), group, "has not one pose a time", "run the experiment again");
+  const std::vector<double> p = reals_of_size(result, group + "/position", 3 * times.size());
+  const std::vector<double> q = reals_of_size(result, group + "/orientation", 4 * times.size());
   const std::size_t stride = std::max<std::size_t>(1, (times.size() + most_frames - 1) / most_frames);
   ResultTrack track{method, {}, {}};
   for (std::size_t f = 0; f < times.size(); f += stride) {
@@ -117,7 +116,8 @@ const MethodDescription& exact_description() {
 /// @param base folder of the experiment's file if its name is relative
 Experiment experiment_of_result(const ResultReader& result, const fs::path& base) {
   // For the scene alone; plugins need not be here, since no file may decide what is loaded.
-  nlohmann::json text = nlohmann::json::parse(result.texts("/provenance/experiment").at(0), nullptr, false);
+  nlohmann::json text =
+      nlohmann::json::parse(texts_of_size(result, "/provenance/experiment", 1).front(), nullptr, false);
   const std::vector<std::string> known = method_names();
   if (text.is_object() && text.contains("methods") && text["methods"].is_array())
     for (nlohmann::json& method : text["methods"])
@@ -130,7 +130,7 @@ Experiment experiment_of_result(const ResultReader& result, const fs::path& base
 /// Vertex files must be those of the run.
 void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& result) {
   const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
-  const std::vector<std::string> hashes = result.texts("/provenance/inputs/sha256");
+  const std::vector<std::string> hashes = texts_of_size(result, "/provenance/inputs/sha256", roles.size());
   for (const MeshNote& note : notes) {
     if (!note.vertices || note.vertices->sha256().empty()) continue;
     const auto found = std::ranges::find(roles, "vertices:" + note.role);
@@ -143,35 +143,35 @@ void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& 
 }
 
 /// Movers with their recorded poses.
-std::shared_ptr<const MoverPlay> recorded_play(const std::vector<Mover>& movers, const ResultReader& result) {
+std::shared_ptr<const MoverPlay> recorded_play(const std::vector<Mover>& movers, const ResultReader& result,
+                                               std::size_t frames) {
   if (movers.empty()) return nullptr;
-  const std::vector<double> p = result.reals("/path/movers/position");
-  const std::vector<double> q = result.reals("/path/movers/orientation");
-  const std::size_t rows = p.size() / 3;
-  if (rows == 0 || rows % movers.size() != 0 || q.size() != 4 * rows)
-    throw InputError(result.file().string(), "/path/movers", "has not one pose a mover and frame",
-                     "run the experiment again");
+  const std::size_t rows = frames * movers.size();
+  const std::vector<double> p = reals_of_size(result, "/path/movers/position", 3 * rows);
+  const std::vector<double> q = reals_of_size(result, "/path/movers/orientation", 4 * rows);
   std::vector<std::vector<Pose>> poses(movers.size());
   for (std::size_t i = 0; i < rows; ++i) poses[i % movers.size()].push_back(recorded_pose(p, q, i));
   return std::make_shared<const MoverPlay>(make_play(movers, poses));
 }
 
-ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader& result) {
+ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader& result,
+                                std::size_t frames) {
   const LoadedScene loaded = load_scene(experiment);
   Scene scene = loaded.scene;
   check_vertex_files(loaded.notes, result);
-  scene.cutoff = result.real_attribute("/scene", "cutoff_m").value();
+  scene.cutoff = result.real_attribute("/scene", "cutoff_m").value_or(scene.cutoff);
   for (const std::string& label : result.groups("/methods"))
     scene.cutoff =
         std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
-  const auto frames = static_cast<std::int64_t>(result.reals("/path/time").size());
-  const SceneMotion motion{recorded_play(loaded.movers, result), deformation_of(loaded.notes, frames)};
+  const SceneMotion motion{recorded_play(loaded.movers, result, frames),
+                           deformation_of(loaded.notes, static_cast<std::int64_t>(frames))};
   return {motion.movers ? motion.movers->with_movers(scene) : scene, motion};
 }
 
 }  // namespace
 
 ResultScene scene_of_result(const ResultReader& result) {
+  const std::size_t frames = frames_of_result(result);
   const Places places = places_of(result);
   const std::map<std::string, std::string> meshes = recorded_meshes(result, places);
   // The experiment's other names (manifest, vertex files, instances) are relative to its own file.
@@ -179,11 +179,18 @@ ResultScene scene_of_result(const ResultReader& result) {
     try {
       Experiment experiment = experiment_of_result(result, *base);
       use_files(experiment, meshes);
-      return scene_of_experiment(experiment, result);
+      return scene_of_experiment(experiment, result, frames);
     } catch (const InputError&) {
       if (std::next(base) == places.bases.end()) throw;
     }
   }
+}
+
+std::size_t frames_of_result(const ResultReader& result) {
+  const std::size_t frames = result.reals("/path/time").size();
+  if (frames == 0)
+    throw InputError(result.file().string(), "/path/time", "holds no frame", "run the experiment again");
+  return frames;
 }
 
 std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames) {

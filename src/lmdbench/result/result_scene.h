@@ -26,6 +26,9 @@ struct ResultScene {
 /// result's experiment is invalid
 ResultScene scene_of_result(const ResultReader& result);
 
+/// @throws InputError where there is none
+std::size_t frames_of_result(const ResultReader& result);
+
 /// Poses of methods of a result.
 struct ResultTrack {
   std::string method;               ///< Label of the method with this device; empty: all.

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
+#include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/geometry/pose.h>
 #include <lmdbench/methods/query.h>
 #include <lmdbench/prepare/load_scene.h>
 #include <lmdbench/result/result_scene.h>
+#include <lmdbench/result/sized_datasets.h>
 #include <lmdbench/result_file/vtu_file.h>
 #include <lmdbench/view/export_frames.h>
 
@@ -99,21 +101,21 @@ Vec3 row(const std::vector<double>& values, std::size_t index) {
 
 /// A method's LMD lists, as recorded by the run.
 struct RecordedLmds {
-  std::vector<std::int64_t> offset, kind_moving, kind_fixed;
+  std::vector<std::size_t> offset;
+  std::vector<std::int64_t> kind_moving, kind_fixed;
   std::vector<double> distance, point_moving, point_fixed;
 
-  RecordedLmds(const ResultReader& result, const std::string& group)
-      : offset(result.integers(group + "/frame_offset")),
-        kind_moving(result.integers(group + "/feature_moving_kind")),
-        kind_fixed(result.integers(group + "/feature_fixed_kind")),
-        distance(result.reals(group + "/distance")),
-        point_moving(result.reals(group + "/point_moving")),
-        point_fixed(result.reals(group + "/point_fixed")) {}
+  RecordedLmds(const ResultReader& result, const std::string& group, std::size_t frames)
+      : offset(list_offsets(result, group + "/frame_offset", frames)),
+        kind_moving(integers_of_size(result, group + "/feature_moving_kind", offset.back())),
+        kind_fixed(integers_of_size(result, group + "/feature_fixed_kind", offset.back())),
+        distance(reals_of_size(result, group + "/distance", offset.back())),
+        point_moving(reals_of_size(result, group + "/point_moving", 3 * offset.back())),
+        point_fixed(reals_of_size(result, group + "/point_fixed", 3 * offset.back())) {}
 
   VtuGrid grid(std::size_t frame) const {
     VtuGrid grid = empty_lmd_grid();
-    for (auto i = static_cast<std::size_t>(offset.at(frame));
-         i < static_cast<std::size_t>(offset.at(frame + 1)); ++i)
+    for (std::size_t i = offset[frame]; i < offset[frame + 1]; ++i)
       add_lmd(grid, row(point_moving, i), row(point_fixed, i), distance[i],
               static_cast<double>(kind_moving[i]), static_cast<double>(kind_fixed[i]));
     return grid;
@@ -126,7 +128,7 @@ void export_recorded(Exporter& exporter, const ResultReader& result, const std::
   for (const std::string& label : labels) {
     const std::string group = "/methods/" + label + "/lmds";
     if (!result.has(group + "/frame_offset")) continue;
-    const RecordedLmds recorded(result, group);
+    const RecordedLmds recorded(result, group, frames_of_result(result));
     Series series(exporter, "lmds", label);
     for (std::size_t i = 0; i < track.frames.size(); ++i)
       series.add(track.poses[i].time, track.frames[i], recorded.grid(track.frames[i]));
@@ -167,7 +169,8 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
   Series moving(exporter, "moving", track.method), lmds(exporter, "lmds-exact", track.method),
       forces(exporter, "forces", track.method);
   std::vector<std::vector<double>> force_of;
-  for (const std::string& label : labels) force_of.push_back(result.reals("/methods/" + label + "/force"));
+  for (const std::string& label : labels)
+    force_of.push_back(reals_of_size(result, "/methods/" + label + "/force", 3 * frames_of_result(result)));
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const auto& [time, pose] = track.poses[i];
     const std::size_t frame = track.frames[i];
@@ -205,7 +208,8 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
     if (result.has("/methods/" + label + "/movers/force")) labels.push_back(label);
   std::vector<std::vector<double>> force_of;
   for (const std::string& label : labels)
-    force_of.push_back(result.reals("/methods/" + label + "/movers/force"));
+    force_of.push_back(reals_of_size(result, "/methods/" + label + "/movers/force",
+                                     3 * play.count() * frames_of_result(result)));
   Series movers(exporter, "movers", track.method), lmds(exporter, "lmds-movers", track.method),
       forces(exporter, "forces-movers", track.method);
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
@@ -252,25 +256,26 @@ void export_polylines(Exporter& exporter, const ResultReader& result, const std:
   const std::string group = (method.empty() ? "" : "/methods/" + method) + std::string("/polylines");
   if (!result.has(group + "/frame")) return;
   const std::vector<std::int64_t> frames = result.integers(group + "/frame");
-  const std::vector<std::int64_t> lines = result.integers(group + "/frame_offset");
-  const std::vector<std::int64_t> first_point = result.integers(group + "/point_offset");
-  const std::vector<std::int64_t> closed = result.integers(group + "/closed");
-  const std::vector<double> points = result.reals(group + "/point");
+  const std::vector<std::size_t> lines = list_offsets(result, group + "/frame_offset", frames.size());
+  const std::vector<std::size_t> first_point = list_offsets(result, group + "/point_offset", lines.back());
+  const std::vector<std::int64_t> closed = integers_of_size(result, group + "/closed", lines.back());
+  const std::vector<double> points = reals_of_size(result, group + "/point", 3 * first_point.back());
   const std::vector<double> times = result.reals("/path/time");
   Series series(exporter, "polylines", method);
   for (std::size_t f = 0; f < frames.size(); ++f) {
     VtuGrid grid;
     grid.cell = VtuCell::POLYLINE;
-    for (auto l = static_cast<std::size_t>(lines[f]); l < static_cast<std::size_t>(lines[f + 1]); ++l) {
+    for (std::size_t l = lines[f]; l < lines[f + 1]; ++l) {
       std::vector<Vec3> line;
-      for (auto p = static_cast<std::size_t>(first_point[l]);
-           p < static_cast<std::size_t>(first_point[l + 1]); ++p)
-        line.push_back(row(points, p));
+      for (std::size_t p = first_point[l]; p < first_point[l + 1]; ++p) line.push_back(row(points, p));
       if (closed[l] != 0 && !line.empty()) line.push_back(line.front());
       grid.add(line);
     }
     const auto frame = static_cast<std::size_t>(frames[f]);
-    series.add(times.at(frame), frame, grid);
+    if (frame >= times.size())
+      throw InputError(result.file().string(), group + "/frame", "names a frame that the path has not",
+                       "run the experiment again");
+    series.add(times[frame], frame, grid);
   }
   series.finish();
 }

@@ -150,12 +150,19 @@ class Search:
         self.moving = as_mesh(moving, "moving")  #: a Mesh
         self.fixed = [as_mesh(mesh, "fixed") for mesh in several]  #: a list of Mesh
         self._search = _lmdbench.Search(self.moving._mesh, [mesh._mesh for mesh in self.fixed], float(cutoff), method,
-                                        json.dumps(options))
+                                        json.dumps(options, default=_plain))
 
     def __call__(self, poses: PosesLike) -> LmdSets:
         """The LMD sets of all poses: (N, 4, 4), (4, 4) or the name of a TUM file."""
         chosen = as_poses(poses)
         return LmdSets(self._search.at(chosen), chosen.times)
+
+
+def _plain(value: object) -> object:
+    """numpy's numbers as Python's, for JSON."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"an option of type {type(value).__name__} (remedy: a text, a number or a truth value)")
 
 
 def as_mesh(mesh: MeshLike, name: str = "mesh") -> Mesh:
