@@ -92,6 +92,13 @@ Pose recorded_pose(const std::vector<double>& p, const std::vector<double>& q, s
           Eigen::Quaterniond(q[4 * row + 3], q[4 * row], q[4 * row + 1], q[4 * row + 2])};
 }
 
+std::size_t frames_of_result(const ResultReader& result) {
+  const std::size_t frames = result.reals("/path/time").size();
+  if (frames == 0)
+    throw InputError(result.file().string(), "/path/time", "holds no frame", "run the experiment again");
+  return frames;
+}
+
 ResultTrack track_of(const ResultReader& result, const std::string& method, std::size_t most_frames) {
   const std::string group = method.empty() ? "/path" : "/methods/" + method + "/path";
   const std::vector<double> times = result.reals("/path/time");
@@ -165,7 +172,7 @@ ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader
         std::max(scene.cutoff, result.real_attribute("/methods/" + label, "cutoff_m").value_or(0.0));
   const SceneMotion motion{recorded_play(loaded.movers, result, frames),
                            deformation_of(loaded.notes, static_cast<std::int64_t>(frames))};
-  return {motion.movers ? motion.movers->with_movers(scene) : scene, motion};
+  return {motion.movers ? motion.movers->with_movers(scene) : scene, motion, frames};
 }
 
 }  // namespace
@@ -184,13 +191,6 @@ ResultScene scene_of_result(const ResultReader& result) {
       if (std::next(base) == places.bases.end()) throw;
     }
   }
-}
-
-std::size_t frames_of_result(const ResultReader& result) {
-  const std::size_t frames = result.reals("/path/time").size();
-  if (frames == 0)
-    throw InputError(result.file().string(), "/path/time", "holds no frame", "run the experiment again");
-  return frames;
 }
 
 std::vector<ResultTrack> tracks_of_result(const ResultReader& result, std::size_t most_frames) {

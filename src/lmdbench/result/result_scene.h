@@ -19,15 +19,13 @@ namespace lmdbench {
 /// The meshes of a result as placed in the scene, under the largest cutoff of its methods.
 struct ResultScene {
   Scene rest;
-  SceneMotion motion;  ///< Movers with their poses of the result.
+  SceneMotion motion;      ///< Movers with their poses of the result.
+  std::size_t frames = 0;  ///< Of the path; at least one.
 };
 /// Searches files in the working folder, the result's and the run's; the bytes must be the run's.
-/// @throws InputError where a mesh is missing or differs from that of the run; UsageError where the
-/// result's experiment is invalid
+/// @throws InputError where a mesh is missing or differs from the run's, or there is no frame;
+/// UsageError where the result's experiment is invalid
 ResultScene scene_of_result(const ResultReader& result);
-
-/// @throws InputError where there is none
-std::size_t frames_of_result(const ResultReader& result);
 
 /// Poses of methods of a result.
 struct ResultTrack {

@@ -124,11 +124,11 @@ struct RecordedLmds {
 
 /// Exports the recorded LMD lists.
 void export_recorded(Exporter& exporter, const ResultReader& result, const std::vector<std::string>& labels,
-                     const ResultTrack& track) {
+                     const ResultTrack& track, std::size_t frames) {
   for (const std::string& label : labels) {
     const std::string group = "/methods/" + label + "/lmds";
     if (!result.has(group + "/frame_offset")) continue;
-    const RecordedLmds recorded(result, group, frames_of_result(result));
+    const RecordedLmds recorded(result, group, frames);
     Series series(exporter, "lmds", label);
     for (std::size_t i = 0; i < track.frames.size(); ++i)
       series.add(track.poses[i].time, track.frames[i], recorded.grid(track.frames[i]));
@@ -170,7 +170,7 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
       forces(exporter, "forces", track.method);
   std::vector<std::vector<double>> force_of;
   for (const std::string& label : labels)
-    force_of.push_back(reals_of_size(result, "/methods/" + label + "/force", 3 * frames_of_result(result)));
+    force_of.push_back(reals_of_size(result, "/methods/" + label + "/force", 3 * result_scene.frames));
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const auto& [time, pose] = track.poses[i];
     const std::size_t frame = track.frames[i];
@@ -191,7 +191,7 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
     forces.add(time, frame, middle);
   }
   for (Series* series : {&moving, &lmds, &forces}) series->finish();
-  export_recorded(exporter, result, labels, track);
+  export_recorded(exporter, result, labels, track, result_scene.frames);
 }
 
 /// Meshes, exact LMDs and forces of several movers, each with its number.
@@ -208,8 +208,8 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
     if (result.has("/methods/" + label + "/movers/force")) labels.push_back(label);
   std::vector<std::vector<double>> force_of;
   for (const std::string& label : labels)
-    force_of.push_back(reals_of_size(result, "/methods/" + label + "/movers/force",
-                                     3 * play.count() * frames_of_result(result)));
+    force_of.push_back(
+        reals_of_size(result, "/methods/" + label + "/movers/force", 3 * play.count() * result_scene.frames));
   Series movers(exporter, "movers", track.method), lmds(exporter, "lmds-movers", track.method),
       forces(exporter, "forces-movers", track.method);
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
@@ -249,7 +249,7 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
     forces.add(time, frame, middles);
   }
   for (Series* series : {&movers, &lmds, &forces}) series->finish();
-  export_recorded(exporter, result, labels, track);
+  export_recorded(exporter, result, labels, track, result_scene.frames);
 }
 
 void export_polylines(Exporter& exporter, const ResultReader& result, const std::string& method) {
