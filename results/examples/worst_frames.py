@@ -13,5 +13,5 @@ with h5py.File(sys.argv[1]) as result:
         truth = method.get("reference", result.get("/reference"))
         known = truth["contact_without_direction"][:] == 0  # triangles that intersect have no direction, so no force is the true one
         frame, error = method["truth/frame"][:].astype(int), method["truth/force_error"][:]
-        worst = np.argsort(-np.where(in_contact[frame] & known, np.nan_to_num(error), 0.0))[:3]
+        worst = sorted(np.flatnonzero(in_contact[frame] & known & np.isfinite(error)), key=lambda i: -error[i])[:3]
         print(f"{label}: " + ", ".join(f"{error[i]:.3g} N at {time[frame[i]]:.3f} s" for i in worst))

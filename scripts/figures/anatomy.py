@@ -18,7 +18,7 @@ class Mesh:
     """(V, 3) vertices in the mesh's frame, (T, 3) triangles, (T, 3) face normals."""
 
     def __init__(self, entry):
-        self.name = entry["mesh"]
+        self.name = style.shortened(entry["mesh"])
         self.vertices = np.array(entry["vertices"])
         self.triangles = np.array(entry["triangles"])
         self.normals = np.array(entry["face_normals"])

@@ -25,11 +25,29 @@ def judge(parts):
     return all_of(*cells.values()), "; ".join(rest)
 
 
+def decided(value, holds):
+    """None where the value that decides was not measured."""
+    return None if np.isnan(value) else bool(holds)
+
+
 def inside(values, low=-np.inf, high=np.inf):
-    """Whether what the repetitions say lies within limits: None where they disagree or there is but one, so that nothing said of
-    times turns from run to run."""
-    within = [bool(low <= value <= high) for value in values]
+    """Whether what the repetitions say lies within limits: None where they disagree, one is not measured or there is but one, so that nothing said
+    of times turns from run to run."""
+    within = [decided(value, low <= value <= high) for value in values]
     return within[0] if len(within) >= LEAST_REPETITIONS and len(set(within)) == 1 else None
+
+
+def said(value, digits=2, unit=""):
+    return "not measured" if np.isnan(value) else f"{value:.{digits}f}{unit}"
+
+
+def why_not(result):
+    """What keeps a result from being judged, if anything: claims compare methods that see the same poses, search at the same frames and touch something."""
+    if result.has("/realtime"):
+        return "is of the driver realtime, in which each method searches when it can"
+    if any(method.has("loop") for method in result.methods.values()):
+        return "is of a closed loop, in which each method has poses of its own"
+    return "" if result.number("frames_in_contact") > 0 else "has no frame in contact"
 
 
 def both(result):
@@ -40,9 +58,9 @@ def errors(result):
     """What stands beside every time: recall and force error of both methods."""
     texts = []
     for method in both(result):
-        texts.append(f"{method.label} {100 * method.number('recall'):.0f} % "
-                     f"({100 * method.number('recall_adjacent'):.0f} % with neighbouring features), "
-                     f"{method.number('force_error_rms_n'):.2f} N" if truth_of(method)
+        texts.append(f"{method.label} {said(100 * method.number('recall'), 0, ' %')} "
+                     f"({said(100 * method.number('recall_adjacent'), 0, ' %')} with neighbouring features), "
+                     f"{said(method.number('force_error_rms_n'), 2, ' N')}" if truth_of(method)
                      else f"{method.label} not measured")
     return f"(recall and RMS force error, {result.name}: " + "; ".join(texts) + ")"
 
@@ -85,10 +103,11 @@ def k3(_, soft):
     original, improved = (float(np.mean(force)) for force in forces)
     excess = original / improved - 1.0 if improved > 0 else float("nan")
     correlation = float(np.corrcoef(*forces)[0, 1]) if all(force.std() > 0 for force in forces) else float("nan")
-    return (f"correlation {correlation:.2f}; mean force original {original:.2f} N, improved {improved:.2f} N ({100 * excess:+.0f} %). {errors(soft)}"), {
-        "the forces are very similar (correlation)": correlation >= 0.8,
-        "the original's is higher": excess > 0.0,
-        "by little (up to 50 %)": abs(excess) <= 0.5}
+    more = "not measured" if np.isnan(excess) else f"{100 * excess:+.0f} %"
+    return (f"correlation {said(correlation)}; mean force original {original:.2f} N, improved {improved:.2f} N ({more}). {errors(soft)}"), {
+        "the forces are very similar (correlation)": decided(correlation, correlation >= 0.8),
+        "the original's is higher": decided(excess, excess > 0.0),
+        "by little (up to 50 %)": decided(excess, abs(excess) <= 0.5)}
 
 
 def k4(*runs):
@@ -97,8 +116,8 @@ def k4(*runs):
         original, improved = (float(np.mean(count[result.in_contact()])) for count in counts)
         wild, calm = (float(np.sum(np.abs(np.diff(count)))) / result.seconds_in_contact() for count in counts)
         ratio = original / improved if improved > 0 else float("nan")
-        return (f"mean LMDs original {original:.2f}, improved {improved:.2f} (ratio {ratio:.2f}); the number changes by original {wild:.0f}, "
-                f"improved {calm:.0f} LMDs a second"), {"similar counts": 2 / 3 <= ratio <= 1.5, "the original fluctuates more": wild > calm}
+        return (f"mean LMDs original {original:.2f}, improved {improved:.2f} (ratio {said(ratio)}); the number changes by original {wild:.0f}, "
+                f"improved {calm:.0f} LMDs a second"), {"similar counts": decided(ratio, 2 / 3 <= ratio <= 1.5), "the original fluctuates more": wild > calm}
 
     return of_each(runs, look)
 
@@ -106,10 +125,10 @@ def k4(*runs):
 def k5(*runs):
     def look(result):
         ratio, most = (result.method("improved").number(name) for name in ("reduction_ratio", "reduction_ratio_maximum"))
-        return f"{ratio:.1f} over all searches, {most:.1f} at most ({result.triangles():,} triangles)", {}
+        return f"{said(ratio, 1)} over all searches, {said(most, 1)} at most ({result.triangles():,} triangles)", {}
 
-    largest = max(result.method("improved").number("reduction_ratio_maximum") for result in runs)
-    return of_each(runs, look)[0], {"up to about twenty times (10 to 40)": 10 <= largest <= 40}, "as far as measured; two runs do not show the growth with the mesh"
+    largest = quantile([result.method("improved").number("reduction_ratio_maximum") for result in runs], 1.0)
+    return of_each(runs, look)[0], {"up to about twenty times (10 to 40)": decided(largest, 10 <= largest <= 40)}, "as far as measured; two runs do not show the growth with the mesh"
 
 
 def search_ratios(original, improved, busy, repetition):
@@ -126,9 +145,9 @@ def k6(*runs):
         busy = result.in_contact()[improved.read("global_frame").astype(int)]
         share = (improved.median_times("first_reduction_time") / improved.median_times("global_search_time"))[busy]
         base, reduction, whole = zip(*(search_ratios(original, improved, busy, r) for r in range(len(improved.times("global_search_time")))))
-        return (f"base {base_i * 1e3:.3f} against {base_o * 1e3:.3f} ms (ratio {base_i / base_o:.2f}); reduction / search median "
-                f"{median(share):.2f}, 99th percentile {quantile(share, 0.99):.2f}; total ratio "
-                f"{improved.number('search_with_reduction_median_s') / base_o:.2f} {errors(result)}"), {
+        return (f"base {said(base_i * 1e3, 3)} against {said(base_o * 1e3, 3)} ms (ratio {said(base_i / base_o)}); reduction / search median "
+                f"{said(median(share))}, 99th percentile {said(quantile(share, 0.99))}; total ratio "
+                f"{said(improved.number('search_with_reduction_median_s') / base_o)} {errors(result)}"), {
             "base time almost equal": inside(base, 0.8, 1.25),
             "the reduction can take as long as the search": inside(reduction, 0.8),
             "total about twice the original": inside(whole, 1.5, 2.5)}
@@ -177,10 +196,10 @@ def k10(*runs):
     parts, texts = {}, []
     for result in runs:
         original = result.method("original")
-        if truth_of(original) is None:
-            continue
         near = 1 - original.number("recall_adjacent")
+        if np.isnan(near):
+            continue
         texts.append(f"{result.name} (dense): the original misses {100 * (1 - original.number('recall')):.1f} % of the true LMDs, "
                      f"{100 * near:.1f} % when a neighbouring feature counts")
         parts[f"{result.name}: pairs are rarely missed on a dense mesh"] = near <= 0.05
-    return "; ".join(texts) + "." if parts else "The results have no truth probe.", parts, "as far as measured; no result on large or unequal triangles was given"
+    return "; ".join(texts) + "." if parts else "The results hold no true LMD in a probed frame.", parts, "as far as measured; no result on large or unequal triangles was given"

@@ -17,8 +17,7 @@ from tables import table, write_text
 
 
 def markdown(claims, results):
-    cells = [[text.replace("|", "\\|") for text in (claim.id, claim.paper, claim.measure, claim.result, claim.in_this_setting(), f"**{claim.verdict}**: {claim.reason}")]
-             for claim in claims]
+    cells = [(claim.id, claim.paper, claim.measure, claim.result, claim.in_this_setting(), f"**{claim.verdict}**: {claim.reason}") for claim in claims]
     return "\n".join([
         "# Claims", "",
         "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "

@@ -83,14 +83,14 @@ def draw_timing(named):
             share = counts / max(counts.sum(), 1.0)
             left.stairs(share, edges, fill=name == "floor", linewidth=0.9, **looks[name])
         left.set(xscale="log", yscale="log", xlim=(0.8, 2e4), ylabel="share of the ticks")
-        left.set_title(name_of_run, loc="left")
+        left.set_title(style.shortened(name_of_run), loc="left")
         left.axvline(1e6 * clock.attribute("period_s"), color=style.GREY, linewidth=0.6, linestyle=":")
         time, age, search_age = clock.ages_ms()
         if age.any():
             right.plot(*thinned(time, search_age), color=style.SKY, linewidth=0.6, label="since its search")
             right.plot(*thinned(time, age), color=style.BLUE, linewidth=0.6, label="of the set in use")
             right.set(yscale="log", ylabel="age [ms]")
-            right.legend(loc="upper right")
+            right.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncol=2, borderpad=0.0)
         else:
             right.text(0.5, 0.5, "searched in the tick: age 0", ha="center", va="center", transform=right.transAxes)
             right.set_yticks([])

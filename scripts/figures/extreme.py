@@ -12,8 +12,8 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 
 import numpy as np
 
-from lmdbench_results import EXIT_CHECK_FAILED, Result, run_script, truth_of
-from tables import shown, table_text, write_text
+from lmdbench_results import EXIT_CHECK_FAILED, Result, no_truth, run_script, truth_of
+from tables import percent, shown, table_text, write_text
 
 COMPLETE_SET = "complete-set"  # promise of a method with the true set
 HEADINGS = ("scene", "method", "contact frames", "LMDs", "recall [%]", "precision [%]", "frames wrong",
@@ -50,7 +50,7 @@ def measure(method):
            "frames_in_contact": int(result.number("frames_in_contact")),
            "frames_probed": int(result.number("frames_probed"))}
     for name in ("frames_touching", "lmd_count_maximum", "frames_wrong"):
-        row[name] = int(method.number(name))
+        row[name] = method.number(name)
     for name in ("recall", "precision", "recall_adjacent", "precision_adjacent"):
         row[name] = method.number(name)
     row["distance_error_cutoff"] = method.number("minimum_distance_error_maximum_m") / result.scene("cutoff_m")
@@ -61,8 +61,9 @@ def measure(method):
     row["frames"] = len(times)
     row["frame_median_s"], row["frame_p99_s"] = float(np.median(times)), float(np.quantile(times, 0.99))
     row["frame_largest_s"], row["frames_late"] = float(times.max()), int(np.count_nonzero(times > DEADLINE_S))
+    row["unjudged"] = "" if np.isfinite(row["recall_adjacent"]) else no_truth(result) if truth_of(method) is None else "no true LMD in a probed frame"
     row["why_not"] = why_not(row)
-    row["stands"] = not row["why_not"]
+    row["stands"] = None if row["unjudged"] and not row["why_not"] else not row["why_not"]
     return row
 
 
@@ -73,21 +74,22 @@ def why_not(row):
         reasons.append(f"{row['not_a_number']} values missing")
     if row["recall_adjacent"] < STANDS_RECALL:
         reasons.append(f"misses {100 * (1 - row['recall_adjacent']):.0f} % of the LMDs")
-    if not row["force_error_fmax"] <= STANDS_FORCE:
+    if row["force_error_fmax"] > STANDS_FORCE:
         reasons.append(f"force off by {row['force_error_fmax']:.2g} F_max")
     return reasons
 
 
 def cells(row):
-    def percent(share):
+    def both(share):
         strict, adjacent = row[share], row[share + "_adjacent"]
-        return NOT_MEASURED if not np.isfinite(strict) else f"{100 * strict:.1f} ({100 * adjacent:.1f})"
+        return NOT_MEASURED if not np.isfinite(strict) else f"{percent(strict)} ({percent(adjacent)})"
 
-    return [row["scene"], row["method"], f"{row['frames_in_contact']} ({row['frames_touching']})", str(row["lmd_count_maximum"]),
-            percent("recall"), percent("precision"), f"{row['frames_wrong']} of {row['frames_probed']}",
+    stands = "yes" if row["stands"] else f"not judged: {row['unjudged']}" if row["stands"] is None else "no: " + ", ".join(row["why_not"])
+    return [row["scene"], row["method"], f"{row['frames_in_contact']} ({shown(row['frames_touching'], 9)})", shown(row["lmd_count_maximum"], 9),
+            both("recall"), both("precision"), f"{shown(row['frames_wrong'], 9)} of {row['frames_probed']}",
             *(shown(row[name], 2) for name in ("distance_error_cutoff", "force_error_fmax", "force_jump_fmax", "true_force_jump_fmax")), str(row["not_a_number"]),
             ", ".join(f"{1e6 * row[name]:.3g}" for name in ("frame_median_s", "frame_p99_s", "frame_largest_s")),
-            f"{row['frames_late']} of {row['frames']}", "yes" if row["stands"] else "no: " + ", ".join(row["why_not"])]
+            f"{row['frames_late']} of {row['frames']}", stands]
 
 
 def markdown(rows):
@@ -95,14 +97,19 @@ def markdown(rows):
 
 
 def standings(rows):
-    """A line a method: in how many scenes it stands, and in how many each criterion fails."""
+    """A line a method: in how many scenes it stands of those in which it is judged, and in how many each criterion fails."""
+    def worst(rows, name, extreme, words):
+        measured = [row for row in rows if np.isfinite(row[name])]
+        return words(extreme(measured, key=lambda row: row[name])) if measured else NOT_MEASURED
+
     lines = []
     for method in dict.fromkeys(row["method"] for row in rows):
         own = [row for row in rows if row["method"] == method]
-        known, force = (min(own, key=lambda row: row["recall_adjacent"]), max(own, key=lambda row: row["force_error_fmax"]))
-        lines.append([method, f"{sum(row['stands'] for row in own)} of {len(own)}", sum(row["recall_adjacent"] < STANDS_RECALL for row in own),
-                      sum(not row["force_error_fmax"] <= STANDS_FORCE for row in own), sum(row["not_a_number"] > 0 for row in own),
-                      f"{100 * known['recall_adjacent']:.1f} ({known['scene']})", f"{force['force_error_fmax']:.2g} ({force['scene']})"])
+        judged = [row["stands"] for row in own if row["stands"] is not None]
+        lines.append([method, f"{sum(judged)} of {len(judged)}", sum(row["recall_adjacent"] < STANDS_RECALL for row in own),
+                      sum(row["force_error_fmax"] > STANDS_FORCE for row in own), sum(row["not_a_number"] > 0 for row in own),
+                      worst(own, "recall_adjacent", min, lambda row: f"{percent(row['recall_adjacent'])} ({row['scene']})"),
+                      worst(own, "force_error_fmax", max, lambda row: f"{row['force_error_fmax']:.2g} ({row['scene']})")])
     return table_text(["method", "stands", "misses LMDs", "force off", "values missing", "fewest LMDs known [%]", "worst force error [F_max]"], lines)
 
 
@@ -121,9 +128,9 @@ def complaints(rows):
         if row["not_a_number"]:
             yield f"{place}: {row['not_a_number']} values are not a number"
         if row["frames_probed"] == 0:
-            yield f"{place}: no probed frame"
-        if row["promise"] == COMPLETE_SET and row["frames_wrong"]:
-            yield f"{place}: {row['frames_wrong']} of {row['frames_probed']} sets are not the true one"
+            yield f"{place}: no probed frame: {row['unjudged']} (remedy: /probes/truth/stride_frames above 0)"
+        if row["promise"] == COMPLETE_SET and row["frames_wrong"] > 0:
+            yield f"{place}: {row['frames_wrong']:.0f} of {row['frames_probed']} sets are not the true one"
 
 
 def main(argv):

@@ -16,15 +16,27 @@ import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError, run_script
-from mesh_drawing import FIXED, MOVING, draw_triangles, read_off, rotation, view_towards
+from mesh_drawing import FIXED, MOVING, draw_triangles, prepared, read_off, rotation, view_towards
 from program import PROGRAM, answer
 
 import matplotlib.pyplot as plt
 from matplotlib.collections import LineCollection
 
 
-def scaled(points, diagonal):
-    return points if diagonal is None else points * diagonal / np.linalg.norm(points.max(axis=0) - points.min(axis=0))
+DRAWN = ("mesh", "diagonal_m", "scale", "centre")  # keys of a mesh
+
+
+def bodies_of(file, experiment):
+    """The moving and the fixed mesh. What `lmdbench query` cannot be asked for would be another scene, and is refused."""
+    beyond = [f"/{key}" for key in ("objects", "movers") if experiment.get(key)]
+    if not beyond:
+        beyond = [f"/fixed/{i}" for i in range(1, len(experiment["fixed"]))]
+        bodies = (("moving", experiment["moving"]), ("fixed/0", experiment["fixed"][0]))
+        beyond += [f"/{place}/{key}" for place, body in bodies for key in body if key not in DRAWN]
+    if beyond:
+        raise ResultError(f"{file}: {', '.join(beyond)}: not drawn here (remedy: an experiment with one moving and one fixed mesh that have no keys "
+                          f"but {', '.join(DRAWN)})")
+    return {"moving": experiment["moving"], "fixed": experiment["fixed"][0]}
 
 
 def write_off(file, points, triangles):
@@ -95,11 +107,10 @@ def main(argv):
     experiment = json.loads(Path(arguments.experiment).read_text(encoding="utf-8"))
     here = os.path.dirname(arguments.experiment)
     folder = os.path.join(here, experiment.get("mesh_folder", "../meshes"))
-    bodies = [experiment["moving"], experiment["fixed"][0]]
     meshes = {}
-    for role, body in zip(("moving", "fixed"), bodies):
+    for role, body in bodies_of(arguments.experiment, experiment).items():
         points, triangles = read_off(os.path.join(folder, body["mesh"] + ".off"))
-        meshes[role] = (scaled(points, body.get("diagonal_m")), triangles)
+        meshes[role] = (prepared(points, body), triangles)
     poses = np.loadtxt(os.path.join(here, experiment["path"]["file"]))
     poses = chosen_poses(poses, arguments.time)
     force = experiment["force"][0] if isinstance(experiment["force"], list) else experiment["force"]
@@ -114,9 +125,10 @@ def main(argv):
         when = "on the path" if arguments.time is None else f"at {poses[0, 0]:g} s"
         raise ResultError(f"{arguments.experiment}: no LMD within the cutoff {when} (remedy: another {'experiment' if arguments.time is None else '--time'})")
     pose, lmds = poses[shown], sets[shown]
-    placed = [(moving @ rotation(*pose[4:]).T + pose[1:4], meshes["moving"][1]), meshes["fixed"]]
-    title = f"{len(lmds)} LMD{'s' * (len(lmds) != 1)} of {arguments.method} within {1e3 * cutoff:.3g} mm, {experiment['name']} at {pose[0]:g} s"
-    return style.leave(draw(placed, lmds, title), arguments.out, "figure1")
+    shapes = [(moving @ rotation(*pose[4:]).T + pose[1:4], meshes["moving"][1]), meshes["fixed"]]
+    name = style.shortened(experiment["name"])
+    title = f"{len(lmds)} LMD{'s' * (len(lmds) != 1)} of {arguments.method} within {1e3 * cutoff:.3g} mm, {name} at {pose[0]:g} s"
+    return style.leave(draw(shapes, lmds, title), arguments.out, "figure1")
 
 
 if __name__ == "__main__":

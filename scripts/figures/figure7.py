@@ -16,7 +16,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, reference_force, run_script, true_forces, truth_of
+from lmdbench_results import ResultError, no_truth, reference_force, run_script, true_forces, truth_of
 from variants import open_results
 
 import matplotlib.pyplot as plt
@@ -35,6 +35,7 @@ SHORTEST_UPDATE_US = 0.1  # lower end of its axis; below are updates of empty se
 HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
 MOST_COLUMNS = 4
+LONGEST_LABEL = 32  # letters; it stands twice in some rows
 LEGEND_LAYOUTS = ((7.0, 1), (5.5, 1), (5.5, 2), (4.5, 2))
 
 
@@ -46,20 +47,28 @@ class Column:
         self.methods = methods
         # Under several profiles the column's title has the profile: names are equal in all columns.
         self.names = {method.label: method.label.removesuffix(f"-{method.profile}") if method.profile else method.label for method in methods}
-        colours = style.colours_of([SimpleNamespace(label=self.names[method.label], name=method.name, order=method.order) for method in methods])
+        named = [SimpleNamespace(label=self.names[method.label], name=method.name, order=method.order) for method in methods]
+        colours, rounds = style.colours_of(named), style.rounds_of(named)
         self.look = {}
         for method in self.methods:
             name = self.names[method.label]
-            self.look[method.label] = {"color": colours[name], "ls": style.line_of(method) if name == method.name else "-",
+            self.look[method.label] = {"color": colours[name], "ls": style.line_of(method) if name == method.name else style.round_line(rounds[name]),
                                        "lw": 1.0 if method.reduces else 0.6, "zorder": 2 + method.order}
+
+    def span(self):
+        """Ends of the time axis; of a single frame they stand apart."""
+        half = 0.0 if self.time[-1] > self.time[0] else 0.5 / self.result.scene("frame_rate_hz")
+        return self.time[0] - half, self.time[-1] + half
 
     def profile(self):
         return self.methods[0].profile
 
+    def name(self):
+        return self.result.name + (f", {self.profile()}" if self.profile() else "")
+
     def title(self):
         method = self.methods[0]
-        name = style.shortened(self.result.name) + (f", {self.profile()}" if self.profile() else "")
-        return f"{name}: cutoff {method.constant('cutoff_m') * 1e3:.3g} mm, $F_{{max}}$ {method.constant('maximum_force_n'):g} N"
+        return f"{style.shortened(self.name())}: cutoff {method.constant('cutoff_m') * 1e3:.3g} mm, $F_{{max}}$ {method.constant('maximum_force_n'):g} N"
 
 
 def columns_of(results):
@@ -182,11 +191,11 @@ def plot_updates(axes, column):
 def plot_recall(axes, column):
     axes.set_ylim(-4, 104)
     axes.yaxis.set_major_locator(FixedLocator([0, 50, 100]))
-    edges = np.linspace(column.time[0], column.time[-1], RECALL_BINS + 1)
+    edges = np.linspace(*column.span(), RECALL_BINS + 1)
     for method in column.methods:
         truth = truth_of(method)
         if truth is None:
-            axes.text(0.5, 0.5, "no truth probe in this run", transform=axes.transAxes, ha="center", va="center")
+            axes.text(0.5, 0.5, no_truth(column.result), transform=axes.transAxes, ha="center", va="center")
             return
         bins = np.clip(np.digitize(column.time[truth.frames], edges) - 1, 0, RECALL_BINS - 1)
         for shares, options in ((truth.recall, {**column.look[method.label], "lw": 1.1}),
@@ -204,7 +213,7 @@ def keys_of_rows(columns):
     base, laws, searches, reducing = {}, {}, {}, []
     for column in columns:
         for method in column.methods:
-            look, name = column.look[method.label], column.names[method.label]
+            look, name = column.look[method.label], style.shortened(column.names[method.label], LONGEST_LABEL)
             plain = key(name, look["color"], look["ls"], width=1.5 if method.reduces else 1.0)
             base[name] = plain
             if method.reduces:
@@ -239,11 +248,14 @@ def draw(*results):
     heights = [height for _, _, height in ROWS]
     figure, axes = plt.subplots(
         len(ROWS), len(columns), figsize=(style.TWO_COLUMNS_IN, 8.4), sharex="col", squeeze=False,
-        gridspec_kw={"height_ratios": heights, "hspace": 0.36, "wspace": 0.16, "left": 0.092, "right": 0.988,
+        gridspec_kw={"height_ratios": heights, "hspace": 0.36, "wspace": max(0.16, 0.085 * len(columns)), "left": 0.092, "right": 0.974,
                      "top": 0.932, "bottom": 0.046})
     for panels, column in zip(axes.T, columns):
         for panel, (plot, _, _) in zip(panels, ROWS):
             plot(panel, column)
+            for line in panel.lines:
+                if len(line.get_xdata()) == 1:
+                    line.set(marker="o", markersize=3.0)
     share_axes(columns, axes)
     for panel in axes[[plot for plot, _, _ in ROWS].index(plot_searches)]:
         note_beyond(panel)
@@ -252,7 +264,7 @@ def draw(*results):
         beyond = 0.4 * (axes[0, 1].get_position().x0 - axes[0, 0].get_position().x1) if len(columns) > 1 else 0.05
         title = panels[0].set_title(column.title(), pad=19, fontweight="bold", linespacing=1.1)
         style.fit_title(figure, title, box.x0 - beyond, min(box.x1 + beyond, 0.998))
-        panels[-1].set(xlabel="time [s]", xlim=(column.time[0], column.time[-1]))
+        panels[-1].set(xlabel="time [s]", xlim=column.span())
     for row, ((_, label, _), keys) in enumerate(zip(ROWS, keys_of_rows(columns))):
         axes[row, 0].set_ylabel(label)
         axes[row, 0].yaxis.set_label_coords(0.026, axes[row, 0].get_position().y0 + 0.5 * axes[row, 0].get_position().height,

@@ -11,6 +11,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
+from lmdbench_results import refuse_foreign  # noqa: E402
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter  # noqa: E402
 
 TWO_COLUMNS_IN = 7.2  # text width of a two-column page
@@ -32,6 +33,8 @@ TRUTH_COLOURS = {"linear": "#9A9A9A", "exponential": TRUTH}
 
 # Colours and lines by place in the registry: a method looks the same in every figure.
 METHOD_COLOURS = (VERMILLION, BLUE, GREEN, BLACK, PURPLE, ORANGE, SKY)
+# Methods that share a colour: the first, the second, ... of them.
+ROUND_LINES = ("-", (0, (7, 2)), (0, (2, 1.5)), (0, (7, 2, 2, 2)), (0, (14, 3)), (0, (7, 2, 2, 2, 2, 2)))
 METHOD_LINES = ((0, (2.6, 0.8)), "-", (0, (5, 1, 1, 1)), ":", "--", (0, (4, 1.5)), (0, (1, 1)))
 
 STYLE = {
@@ -79,6 +82,16 @@ def colours_of(methods):
             for method in {method.label: method for method in methods}.values()}
 
 
+def rounds_of(methods):
+    """{label: how many labels before it have its colour}: there are more methods than colours."""
+    colours = colours_of(methods)
+    return {label: list(colours.values())[:place].count(colour) for place, (label, colour) in enumerate(colours.items())}
+
+
+def round_line(number):
+    return ROUND_LINES[number % len(ROUND_LINES)]
+
+
 def line_of(method):
     return METHOD_LINES[method.order % len(METHOD_LINES)]
 
@@ -86,12 +99,15 @@ def line_of(method):
 LONGEST_NAME = 44  # letters in a key or title
 
 
+def literal(name):
+    """A name as a text of a figure: a dollar sign would begin a formula."""
+    return name.replace("$", "\\$")
+
+
 def shortened(name, longest=LONGEST_NAME):
-    """A name without its middle where it is too long: beginnings and ends tell names apart."""
-    if len(name) <= longest:
-        return name
+    """The same, without its middle where it is too long: beginnings and ends tell names apart."""
     kept = longest - 3
-    return name[: kept - kept // 2] + "..." + name[len(name) - kept // 2 :]
+    return literal(name if len(name) <= longest else name[: kept - kept // 2] + "..." + name[len(name) - kept // 2 :])
 
 
 def width_of(figure, artist):
@@ -172,7 +188,7 @@ MOST_NOTED = 4  # failures at the foot of a figure
 def note_failures(figure, failures):
     """At the foot: whose mark stands in the lane of failures, and why. @param failures {name: reason}"""
     if failures:
-        note = "failed: " + "; ".join(f"{name}, {reason}" for name, reason in failures.items())
+        note = "failed: " + "; ".join(f"{shortened(name, 2 * LONGEST_NAME)}, {literal(reason)}" for name, reason in failures.items())
         if len(failures) > MOST_NOTED:  # more would cover the plot
             note = f"{len(failures)} failed: see the table"
         figure.text(0.012, 0.004, note, fontsize=5.5, color="#444444", wrap=True, va="bottom")
@@ -182,11 +198,12 @@ def save(figure, directory, name):
     """Writes name.svg and name.png and returns their paths; nothing in them depends on the clock."""
     os.makedirs(directory, exist_ok=True)
     files = []
-    for suffix, metadata, options in (
-        ("svg", {"Date": None, "Creator": "lmdbench"}, {}),
-        ("png", {"Software": "lmdbench"}, {"dpi": PNG_DPI}),
+    for suffix, metadata, options, mark in (
+        ("svg", {"Date": None, "Creator": "lmdbench"}, {}, b"<dc:title>lmdbench</dc:title>"),
+        ("png", {"Software": "lmdbench"}, {"dpi": PNG_DPI}, b"Software\0lmdbench"),
     ):
         file = os.path.join(directory, f"{name}.{suffix}")
+        refuse_foreign(file, "figure", mark)
         figure.savefig(file + ".part", format=suffix, metadata=metadata, **options)
         os.replace(file + ".part", file)
         files.append(file)

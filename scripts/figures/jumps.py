@@ -93,9 +93,19 @@ def sets_of(method, frames, scene):
     return [dict(pairs[offset[f]:offset[f + 1]]) for f in range(frames)]
 
 
+def refuse_others(run):
+    """How far a pair travels is known where one rigid mesh follows one path."""
+    for what, there in (("movers", run.has("/path/movers/position")),
+                        ("a mesh that deforms", any("deformation" in mesh.attrs for mesh in run.h5["/scene"].values())),
+                        ("a closed loop", any(method.has("path/position") for method in run.methods.values()))):
+        if there:
+            raise ResultError(f"{run.file}: has {what}, whose jumps are not attributed here (remedy: an open loop in which one rigid mesh moves)")
+
+
 def attribute(file):
-    """({label: {kind: jumps [N]}}, F_max, seconds) of one result file."""
+    """({label: {kind: jumps [N]}}, F_max, seconds) of one result file; a jump is NaN where triangles intersect, which have no direction."""
     run = Result(file)
+    refuse_others(run)
     scene = tuple(run.scene(name) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
     if REFERENCE not in run.methods:
         raise ResultError(f"{file}: /methods/{REFERENCE} is missing (remedy: add the method to the experiment)")
@@ -124,8 +134,10 @@ def table(result, maximum, seconds):
         cells = []
         for kind in KINDS:
             values = np.array(jumps[kind]) / maximum
-            large = values[values > JUMP_SHARE]
-            cells.append(f"{values.size}, {large.size / seconds:.2f}/s, {values.max():.2f}" if values.size else "none")
+            known = values[~np.isnan(values)]
+            large = known[known > JUMP_SHARE]
+            told = f"{known.size}, {large.size / seconds:.2f}/s, {known.max():.2f}" if known.size else "none"
+            cells.append(told + (f"; {values.size - known.size} without direction" if known.size < values.size else ""))
         rows.append([label, *cells])
     return table_text(["method", *KINDS], rows)
 
@@ -135,7 +147,8 @@ def main(argv):
     parser.add_argument("results", nargs="+", metavar="RESULT.h5")
     for file in parser.parse_args(argv).results:
         result, maximum, seconds = attribute(file)
-        print(f"{file}: events, of these jumps above {JUMP_SHARE:.0%} of F_max a second, largest jump in F_max\n")
+        print(f"{file}: events, of these jumps above {JUMP_SHARE:.0%} of F_max a second, largest jump in F_max; of triangles that intersect, "
+              "which have no direction, how many alone\n")
         print(table(result, maximum, seconds) + "\n")
     return 0
 

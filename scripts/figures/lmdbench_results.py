@@ -25,12 +25,27 @@ FORMAT = "lmdbench-result"
 FORMAT_VERSION = 2
 OLDEST_FORMAT_VERSION = 1  # see results/README.md, "Versions"
 EXIT_CHECK_FAILED = 1
+EXIT_USAGE = 2
 EXIT_INPUT_DATA = 3
 EXIT_ENVIRONMENT = 4
 
 
 class ResultError(Exception):
     """A result file is missing, broken or lacks what is asked for; the message names file, place and remedy."""
+
+
+class ForeignFileError(Exception):
+    """An output would replace a file that is not lmdbench's."""
+
+
+def refuse_foreign(file, kind, *marks):
+    """Only an earlier output of ours is replaced: one of the marks (bytes) stands at its beginning."""
+    if not os.path.exists(file) or os.path.getsize(file) == 0:
+        return
+    with open(file, "rb") as stream:
+        start = stream.read(4096)
+    if not any(mark in start for mark in marks):
+        raise ForeignFileError(f"{file}: is no {kind} of lmdbench, which would replace it (remedy: choose another folder with --out)")
 
 
 # Errors of reading a file that lacks required data, or has it in another shape or type.
@@ -67,6 +82,7 @@ METHODS_OF_FORMAT_1 = {"original": (0, True, 0), "improved": (1, True, 2), "cert
 def open_h5(file):
     """The file, open for reading, once it is known to be a result of a format that is read here."""
     remedy = "(remedy: name a file that `lmdbench run` or `lmdbench work-precision` wrote)"
+    OPENED.append(str(file))
     try:
         h5 = h5py.File(file, "r")
     except OSError as error:
@@ -168,8 +184,9 @@ class Result:
 
     def __init__(self, file):
         self.file = str(file)
-        OPENED.append(self.file)
         self.h5 = open_h5(self.file)
+        if "/sweep" in self.h5:
+            raise ResultError(f"{self.file}: holds a sweep, not a run (remedy: scripts/figures/sweep.py or lmdbench.open_sweep reads it)")
         self.format_version = int(self.h5.attrs["format_version"])
         self.experiment = json.loads(self.read_text("/provenance/experiment"))
         self.experiment_name = self.experiment.get("name", self.file)
@@ -325,6 +342,12 @@ def truth_of(method):
     return Truth(method) if method.read("truth/frame").size else None
 
 
+def no_truth(result):
+    """Why a result whose methods have no truth has none, in words."""
+    asked = result.experiment.get("probes", {}).get("truth", {}).get("stride_frames", 0) > 0
+    return "the path ends before the first probed frame" if asked else "no truth probe"
+
+
 def reference_force(method):
     """(K) frames and (K) length of the true rendered force under a method's law, at its poses [N]; empty without a truth probe."""
     group = method.reference()
@@ -355,12 +378,15 @@ def run_script(main):
         code = main(sys.argv[1:])
         sys.stdout.flush()
         return code
+    except ForeignFileError as error:
+        print(error, file=sys.stderr)
+        return EXIT_USAGE
     except ResultError as error:
         print(error, file=sys.stderr)
         return EXIT_INPUT_DATA
     except DATA_ERRORS as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
-        print(f"{', '.join(OPENED)}: not what a result holds: {error!r} in {os.path.basename(place.filename)}, line "
+        print(f"{', '.join(OPENED or sys.argv[1:])}: not what a result holds: {error!r} in {os.path.basename(place.filename)}, line "
               f"{place.lineno} (remedy: make the file again with lmdbench run)", file=sys.stderr)
         return EXIT_INPUT_DATA
     except OSError as error:  # a full disk, no write permission, a reader that has gone

@@ -34,8 +34,14 @@ def read_off(file):
 
 def placed(points, diagonal):
     """Centre of the bounding box at the origin, its diagonal as long as the experiment says."""
+    return prepared(points, {"diagonal_m": diagonal})
+
+
+def prepared(points, body):
+    """Of a mesh what its entry of the experiment makes of it, in its own frame."""
     low, high = points.min(axis=0), points.max(axis=0)
-    return (points - 0.5 * (low + high)) * (diagonal / np.linalg.norm(high - low))
+    scale = body["diagonal_m"] / np.linalg.norm(high - low) if "diagonal_m" in body else body.get("scale", 1.0)
+    return (points - (0.5 * (low + high) if body.get("centre", "diagonal_m" in body) else 0.0)) * scale
 
 
 def rotation(x, y, z, w):

@@ -14,7 +14,7 @@ import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError, open_h5, run_script, text
-from mesh_drawing import placed, read_off
+from mesh_drawing import prepared, read_off, rotation
 
 import matplotlib.pyplot as plt
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
@@ -59,6 +59,15 @@ def draw_mesh(axes, points, faces):
     axes.set_axis_off()
 
 
+def fixed_body(file, experiment):
+    """The mesh that is drawn; curves of others would hang in the air."""
+    fixed = experiment.get("fixed", [])
+    if len(fixed) != 1 or experiment.get("movers") or {"instances", "deformation"} & fixed[0].keys():
+        raise ResultError(f"{file}: /provenance/experiment: drawn are the curves on one fixed, rigid mesh alone (remedy: a run of one, such as "
+                          "experiments/bunny-cut.json)")
+    return fixed[0]
+
+
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("result")
@@ -72,11 +81,12 @@ def main(argv):
         if not own and "polylines" not in file:
             raise ResultError(f"{arguments.result}: no /polylines (remedy: --set /record/polylines/stride_frames=5)")
         lines = Lines(own[0] if own else file["polylines"])
-        scene = file["scene/fixed_0"].attrs
-        mesh, diagonal = text(scene["mesh"]), scene["diagonal_m"]
+        body = fixed_body(arguments.result, json.loads(text(file["provenance/experiment"][0])))
         rate = file["scene"].attrs["frame_rate_hz"]
-        validity = json.loads(scene["validity"])
-    points, faces = read_off(os.path.join(arguments.meshes, f"{mesh}.off"))
+        validity = json.loads(file["scene/fixed_0"].attrs["validity"])
+    points, faces = read_off(os.path.join(arguments.meshes, f"{body['mesh']}.off"))
+    pose = {"translation_m": [0.0, 0.0, 0.0], "rotation_xyzw": [0.0, 0.0, 0.0, 1.0], **body.get("pose", {})}
+    points = prepared(points, body) @ rotation(*pose["rotation_xyzw"]).T + pose["translation_m"]
     cutting = [i for i in range(len(lines.frames)) if lines.of(i)]
     if not cutting:
         raise ResultError(f"{arguments.result}: the meshes intersect in no recorded frame")
@@ -85,13 +95,14 @@ def main(argv):
         figure = plt.figure(figsize=(style.TWO_COLUMNS_IN, 3.3))
         left = figure.add_axes([0.0, 0.0, 0.55, 0.95], projection="3d", computed_zorder=False)
         left.view_init(elev=42, azim=35)
-        draw_mesh(left, placed(points, diagonal), faces)
-        chosen = [cutting[k] for k in np.linspace(0, len(cutting) - 1, arguments.curves).round().astype(int)]
+        draw_mesh(left, points, faces)
+        chosen = [cutting[k] for k in np.unique(np.linspace(0, len(cutting) - 1, arguments.curves).round().astype(int))]
         colours = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(chosen)))
         for i, colour in zip(chosen, colours):
             left.add_collection3d(Line3DCollection([line[:, [2, 0, 1]] for line in lines.of(i)], colors=[colour],
                                                    linewidths=1.3, zorder=10))
-        figure.text(0.02, 0.95, f"{mesh}, {validity['triangles']} triangles: curves of {len(chosen)} frames", fontsize=8)
+        figure.text(0.02, 0.95, f"{style.shortened(body['mesh'])}, {validity['triangles']} triangles: "
+                    f"curves of {len(chosen)} frame{'s' * (len(chosen) != 1)}", fontsize=8)
         times = lines.frames / rate
         top = figure.add_axes([0.64, 0.6, 0.34, 0.32])
         top.plot(times, [1e3 * lines.length(i) for i in range(len(times))], color=style.BLUE)

@@ -11,8 +11,8 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 
 import numpy as np
 
-from lmdbench_results import run_script, truth_of
-from tables import shown
+from lmdbench_results import no_truth, run_script, truth_of
+from tables import percent, shown
 from variants import open_results
 
 NOT_MEASURED = "-"
@@ -25,7 +25,7 @@ def median_and_p99(method, time):
 
 def percents(method, name):
     share, adjacent = method.number(name), method.number(name + "_adjacent")
-    return NOT_MEASURED if not np.isfinite(share) else f"{100 * share:.1f} ({100 * adjacent:.1f})"
+    return NOT_MEASURED if not np.isfinite(share) else f"{percent(share)} ({percent(adjacent)})"
 
 
 def median_and_most(median, most):
@@ -46,7 +46,7 @@ def row(method):
         median_and_most(method.number("lmd_count_median"), method.number("lmd_count_maximum")),
         percents(method, "recall"),
         percents(method, "precision"),
-        f"{error:.2f}" if np.isfinite(error := method.number("force_error_rms_n")) else NOT_MEASURED,
+        shown(method.number("force_error_rms_n")),
         str(method.events("jumps")),
     ]
 
@@ -119,9 +119,9 @@ def describe(result):
     truth = next((truth_of(method) for method in result.methods.values()), None)
     lines = [f"{result.name}: {result.experiment.get('title') or 'no title'}"]
     lines.append(f"{result.time.size} frames, {result.number('frames_in_contact'):.0f} in contact; "
-                 f"{result.repetitions() - result.warm_up_repetitions} timed repetitions; "
+                 f"{f'{repetitions - result.warm_up_repetitions} timed repetitions' if (repetitions := result.repetitions()) else 'times were not kept'}; "
                  + (f"errors against exhaustive truth in {truth.frames.size} frames{true_jumps(result)}"
-                    if truth else "NO TRUTH PROBE: the times stand without an error")
+                    if truth else f"{no_truth(result).upper()}: the times stand without an error")
                  + f"; F_max {maximum_forces(result)} N a contact.")
     lines += ["", table([row(method) for method in result.methods.values()] + truth_rows(result)), "", *crosscheck_lines(result)]
     if result.has("/scene/warnings"):

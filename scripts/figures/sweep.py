@@ -6,6 +6,7 @@ sweep varies): each series a line along its axis, one for each value of further 
 which method at which budget, where one gets cheaper than another, and every point."""
 
 import argparse
+import itertools
 import math
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
@@ -16,7 +17,7 @@ import figure_style as style
 from lmdbench_results import run_script
 from intervals import Rate
 from sweep_results import Sweep, crossing, front, lines
-from tables import shown, table, write_text
+from tables import as_is, shown, table, write_text
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
@@ -26,6 +27,7 @@ MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
 BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # run time of a second of haptics
 MOST_COLUMNS = 3  # problems side by side; more go below
 MOST_PANELS = 24  # problems in one figure; the tables hold all
+LONGEST_TITLE = 34  # letters of a line of a panel's title
 LANE = 0.35  # height in decades of the lanes for errors of 0 and failures
 
 
@@ -58,7 +60,7 @@ def colours_of(sweep):
         if series == point.method:
             colours[series] = style.METHOD_COLOURS[int(point.number("method_order")) % len(style.METHOD_COLOURS)]
             used.add(colours[series])
-    free = iter([colour for colour in style.METHOD_COLOURS if colour not in used] * 4)
+    free = itertools.cycle([colour for colour in style.METHOD_COLOURS if colour not in used] or style.METHOD_COLOURS)
     return {series: colours.get(series) or next(free) for series in sweep.series}
 
 
@@ -119,7 +121,7 @@ def label(axes, text, x, y, colour, taken):
         if box[2] > edge + 0.02 or any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3] for b in taken):
             continue
         taken.append(box)
-        axes.annotate(text, (x, y), xytext=(dx, dy), textcoords="offset points", fontsize=LABEL_PT, color=colour, zorder=5)
+        axes.annotate(style.literal(text), (x, y), xytext=(dx, dy), textcoords="offset points", fontsize=LABEL_PT, color=colour, zorder=5)
         return
 
 
@@ -137,13 +139,14 @@ def titles(sweep):
     """{problem: the title of its panel}: what all problems of the figure share is not said again and again."""
     found = {problem: problem.split(", ") for problem in sweep.problems}
     names = {parts[0] for parts in found.values()}
-    return {problem: ",\n".join(parts[1:] if len(names) == 1 and len(parts) > 1 else parts) for problem, parts in found.items()}
+    told = {problem: parts[1:] if len(names) == 1 and len(parts) > 1 else parts for problem, parts in found.items()}
+    return {problem: ",\n".join(style.shortened(part, LONGEST_TITLE) for part in parts) for problem, parts in told.items()}
 
 
 def draw(sweep):
     style.use_style()
     colours = colours_of(sweep)
-    markers = dict(zip(sweep.series, MARKERS * 4))
+    markers = dict(zip(sweep.series, itertools.cycle(MARKERS)))
     problems, panel_titles = sweep.problems[:MOST_PANELS], titles(sweep)
     columns = min(len(problems), MOST_COLUMNS)
     bands = -(-len(problems) // columns)  # rows of problems, each with all quantities
@@ -173,7 +176,7 @@ def draw(sweep):
             if problem is not None:
                 grid[0][column].set_title(panel_titles[problem], loc="left", fontsize=8)
                 grid[-1][column].set_xlabel("run time [ms/s]")
-    keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=series)
+    keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=style.shortened(series))
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
     figure.text(0.085, 1 - 0.18 / height, "Error against run time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else ""), fontsize=7.5, fontweight="bold")
@@ -255,12 +258,11 @@ def point_table(sweep, problem):
     for point in sorted(sweep.of(problem=problem), key=lambda point: (bool(point.failure), cost(point))):
         name = f"**{point.text()}**" if point.index in best else point.text()
         if point.failure:
-            rows.append(f"| {name}: failed, {point.failure} |" + " |" * len(COLUMNS))
+            rows.append([f"{name}: failed, {point.failure}", *[""] * len(COLUMNS)])
             continue
         values = [value(point) for _, value in COLUMNS]
-        rows.append(f"| {name}{' (' + point.trouble + ')' if point.trouble else ''} | "
-                    + " | ".join(str(found) if isinstance(found, Rate) else shown(found) for found in values) + " |")
-    return [*table(["point", *(name for name, _ in COLUMNS)], [])[:-1], *rows, ""]
+        rows.append([f"{name}{' (' + point.trouble + ')' if point.trouble else ''}", *(found if isinstance(found, Rate) else shown(found) for found in values)])
+    return table(["point", *(name for name, _ in COLUMNS)], rows)
 
 
 def load(sweep):
@@ -290,7 +292,7 @@ def markdown(sweep, picture):
     wrong = max((int(point.number("truth_wrong_frames")) for point in measured), default=0)
     text = [
         "# Error against run time", "",
-        f"{sweep.title}. Made by `lmdbench work-precision experiments/sweeps/{sweep.name}.json` and "
+        f"{as_is(sweep.title)}. Made by `lmdbench work-precision experiments/sweeps/{sweep.name}.json` and "
         f"`scripts/figures/sweep.py results/{sweep.name}.h5` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}; "
         "`certified` with vector instructions, `original` and `improved` scalar.", "",
         f"Truth in every frame is the set of `certified`, compared with `exhaustive` in {checked} frames of the problems "
@@ -307,7 +309,7 @@ def markdown(sweep, picture):
                   "Searches rarer than every so many frames make `improved` cheaper than `certified`, and its sets older. Problems without a row: "
                   "never.", "", *cheaper]
     for problem in sweep.problems:
-        text += [f"## {problem}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and run time.", "", *point_table(sweep, problem)]
+        text += [f"## {as_is(problem)}", "", f"{cutoff_text(sweep.of(problem=problem)[0])} Bold: on the Pareto front of force error and run time.", "", *point_table(sweep, problem)]
     return "\n".join(text)
 
 

@@ -15,7 +15,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, run_script, truth_of
+from lmdbench_results import ResultError, no_truth, run_script, truth_of
 from variants import open_results
 
 import matplotlib.pyplot as plt
@@ -42,8 +42,8 @@ class Point:
         self.median_ms = method.number("frame_time_median_s") * 1e3
         self.p99_ms = method.number("frame_time_p99_s") * 1e3
         if truth_of(method) is None:
-            raise ResultError(f"{result.file}: no truth probe, so its times have no error to stand beside "
-                              "(remedy: run with /probes/truth/stride_frames above 0)")
+            raise ResultError(f"{result.file}: {no_truth(result)}, so its times have no error to stand beside "
+                              "(remedy: run with /probes/truth/stride_frames above 0 over more frames than a search takes)")
         error = method.number("force_error_rms_n") / method.constant("maximum_force_n")
         self.force_error = 0.0 if error < ROUNDING else error
         self.missed = 1.0 - method.number("recall")
@@ -58,18 +58,19 @@ class Point:
             self.failure = "finds no true LMD"
 
 
-# Quantity, a more lenient one (an open mark on the same level), label.
+# Quantity, a more lenient one (an open mark on the same level), its most in decades, label.
 PANELS = (
-    ("force_error", None, "RMS force error / $F_{max}$ of one LMD [1]"),
-    ("missed", "missed_adjacent", "missed share of true LMDs [1]"),
+    ("force_error", None, math.inf, "RMS force error / $F_{max}$ of one LMD [1]"),
+    ("missed", "missed_adjacent", 0.0, "missed share of true LMDs [1]"),
 )
 
 
-def error_axis(axes, errors, any_failed):
+def error_axis(axes, errors, any_failed, most=math.inf):
     """Logarithmic range of the finite positive errors, with a shaded lane for errors of exactly 0 on its left and one
     for failures on its right where they are needed; returns the places of the two lanes and their width in decades."""
     positive = [error for error in errors if np.isfinite(error) and error > 0]
     low, high = decades(positive, SHORTEST_RANGE) if positive else (-3.0, 0.0)
+    low, high = (min(low, most - SHORTEST_RANGE), most) if high > most else (low, high)
     lane = LANE_SHARE * (high - low)
     axes.set_xscale("log")
     zero, failed, limits = style.lanes(axes.xaxis, axes.axvspan, low, high, lane, any(error == 0 for error in errors), any_failed)
@@ -110,10 +111,9 @@ def spread(index, count, lane_decades):
     return 10 ** (0.3 * lane_decades * ((index + 0.5) / count - 0.5))
 
 
-def draw_panel(axes, points, quantities, label, markers, colours):
-    quantity, lenient = quantities
-    errors = [getattr(point, name) for point in points for name in quantities if name]
-    zero, failed, lane_decades = error_axis(axes, errors, any(point.failure for point in points))
+def draw_panel(axes, points, quantity, lenient, most, label, markers, colours, lines):
+    errors = [getattr(point, name) for point in points for name in (quantity, lenient) if name]
+    zero, failed, lane_decades = error_axis(axes, errors, any(point.failure for point in points), most)
     in_lane = [point for point in points if point.failure or getattr(point, quantity) == 0]
     for point in points:
         error = getattr(point, quantity)
@@ -127,7 +127,7 @@ def draw_panel(axes, points, quantities, label, markers, colours):
             axes.plot([place, open_place], [point.median_ms] * 2, color=colour, lw=0.6, ls=":", zorder=2)
             axes.plot(open_place, point.median_ms, marker=markers[point.experiment], ms=5.4, color="white", mec=colour,
                       mew=0.9, zorder=3)
-        axes.plot([place, place], [point.median_ms, point.p99_ms], color=colour, lw=0.9, zorder=2)
+        axes.plot([place, place], [point.median_ms, point.p99_ms], color=colour, lw=0.9, ls=lines[point.method.label], zorder=2)
         axes.plot(place, point.p99_ms, marker="_", ms=5, color=colour, zorder=2)
         axes.plot(place, point.median_ms, marker="x" if bad else markers[point.experiment], ms=6, color=colour,
                   mec=colour if bad else "white", mew=1.4 if bad else 0.6, zorder=3)
@@ -153,27 +153,29 @@ def draw(results, narrow=False):
     style.use_style()
     points = [Point(result, method) for result in results for method in result.methods.values()]
     names = list(dict.fromkeys(point.experiment for point in points))
-    colours = style.colours_of([point.method for point in points])
+    methods = [point.method for point in points]
+    colours, lines = style.colours_of(methods), {label: style.round_line(number) for label, number in style.rounds_of(methods).items()}
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
     width, height, rows = (0.5 * style.TWO_COLUMNS_IN, 6.2, len(PANELS)) if narrow else (style.TWO_COLUMNS_IN, 3.5, 1)
     inch = 3.5 / height
     figure, axes = plt.subplots(rows, len(PANELS) // rows, figsize=(width, height), sharey=True, gridspec_kw={
         "left": 0.2 if narrow else 0.102, "right": 0.985, "bottom": 0.145 * inch, "top": 0.92, "wspace": 0.08, "hspace": 0.22})
-    for panel, (*quantities, label) in zip(axes, PANELS):
-        draw_panel(panel, points, quantities, label, markers, colours)
+    for panel, quantities in zip(axes, PANELS):
+        draw_panel(panel, points, *quantities, markers, colours, lines)
     time_axis(axes[0], points)
     for panel in axes:
         mark_budget(panel)
     for panel in axes if narrow else axes[:1]:
         panel.set_ylabel("run time per frame in contact [ms]\nmedian, whisker to 99th percentile")
-    keys = [Line2D([], [], color=colour, lw=2.5, label=label) for label, colour in colours.items()]
+    keys = [Line2D([], [], color=colour, lw=2.5 if lines[label] == "-" else 1.2, ls=lines[label], label=style.shortened(label))
+            for label, colour in colours.items()]
     keys += [Line2D([], [], color="#444444", ls="none", marker=markers[name], ms=5.5, mew=0, label=style.shortened(name))
              for name in names if len(names) > 1]
     keys.append(Line2D([], [], color="white", ls="none", marker="o", ms=5, mec="#444444", mew=0.9,
                        label="open: neighbouring features count as found"))
     style.note_failures(figure, {f"{point.method.label} in {point.experiment}": point.failure for point in points if point.failure})
-    _, lines = style.legend_within(figure, keys, 0.02 if narrow else 0.095, 0.995, "upper left", LEGEND_LAYOUTS)
-    axes[0].get_gridspec().update(top=0.975 - 0.055 * inch * lines)
+    _, key_lines = style.legend_within(figure, keys, 0.02 if narrow else 0.095, 0.995, "upper left", LEGEND_LAYOUTS)
+    axes[0].get_gridspec().update(top=0.975 - 0.055 * inch * key_lines)
     return figure
 
 

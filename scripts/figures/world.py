@@ -40,7 +40,9 @@ class World:
                                  "orientation": entry["orientation"][:]})
         moving = file["scene/moving"].attrs
         self.moving = {"mesh": text(moving["mesh"]), "diagonal": float(moving["diagonal_m"])}
-        self.time, self.position, self.orientation = (file["path"][name][:] for name in ("time", "position", "orientation"))
+        self.time = file["path/time"][:]
+        path = group.get("path", file["path"])  # in a closed loop that of the method's device, not of the hand
+        self.position, self.orientation = (path[name][:] for name in ("position", "orientation"))
         lmds = group["lmds"]
         self.offset = lmds["frame_offset"][:].astype(int)
         self.body = lmds["fixed_body"][:].astype(int)

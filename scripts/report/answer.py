@@ -5,6 +5,7 @@
 import math
 
 BUDGET_S = 1e-3  # one haptic frame at 1 kHz
+SHOWN_AS_1 = 0.9995  # the least that is rounded up to 1 with three digits
 
 
 class Row:
@@ -39,18 +40,24 @@ def time(value):
     """[s] in the unit that one reads it in."""
     if not math.isfinite(value):
         return "-"
-    unit, scale = next(((name, one) for name, one in (("s", 1.0), ("ms", 1e3)) if abs(value) * one >= 1.0), ("\u00b5s", 1e6))
-    return f"{value * scale:.3g} {unit}"
+    unit, scale = next(((name, one) for name, one in (("s", 1.0), ("ms", 1e3)) if abs(value) * one >= SHOWN_AS_1), ("\u00b5s", 1e6))
+    return f"{number(value, scale)} {unit}"
 
 
 def percent(share):
     """Of 100; what is rounding is 0, and what a reader cannot tell from it says so."""
-    return "-" if not math.isfinite(share) else "0" if share < 1e-8 else "< 0.01" if share < 1e-4 else f"{100.0 * share:.3g}"
+    return "0" if share < 1e-8 else "< 0.01" if share < 1e-4 else share_of_all(share)
+
+
+def share_of_all(share):
+    """In percent; what is less than all is not rounded up to it."""
+    shown = number(share, 100.0)
+    return "> 99.9" if shown == "100" and share < 1.0 else shown
 
 
 def number(value, scale=1.0):
     shown = value * scale
-    return "-" if not math.isfinite(shown) else f"{shown:.0f}" if abs(shown) >= 1000 else f"{shown:.3g}"
+    return "-" if not math.isfinite(shown) else f"{shown:.0f}" if abs(shown) >= 1000 * SHOWN_AS_1 else f"{shown:.3g}"
 
 
 def frames_wrong(row):
@@ -77,9 +84,9 @@ COLUMNS = (
     ("force law", lambda row: row.force_law),
     ("frames probed", lambda row: f"{row.frames_probed}"),
     ("frames wrong", summary("frames_wrong")),
-    ("recall [%]", summary("recall", 100.0)),
-    ("recall, neighbouring features count [%]", summary("recall_adjacent", 100.0)),
-    ("precision [%]", summary("precision", 100.0)),
+    ("recall [%]", lambda row: share_of_all(row.number("recall"))),
+    ("recall, neighbouring features count [%]", lambda row: share_of_all(row.number("recall_adjacent"))),
+    ("precision [%]", lambda row: share_of_all(row.number("precision"))),
     ("force error, RMS [% of F_max]", lambda row: number(row.force_error, 100.0)),
     ("force error, largest [% of F_max]", lambda row: number(row.largest_force_error, 100.0)),
     ("frame, median [\u00b5s]", summary("frame_time_median_s", 1e6)),

@@ -3,17 +3,16 @@
 """The paper's claims on the page: what the page's own results say, the ledger's verdict, and links to what it rests on."""
 
 from claim_rules import CLAIMS, read_verdicts, rows
+from claim_runs import why_not
 from lmdbench_results import ResultError
 
 
 def claims_of(results):
     """{"hard", "soft", "claims"} of the two results that have the paper's methods, or {"problem": why there is no ledger}."""
-    # In real time (/realtime) each method searches when it can: searches are not comparable.
-    able = [result for result in results if {"original", "improved"} <= set(result.methods) and result.number("frames_in_contact") > 0
-            and not result.has("/realtime")]
+    able = [result for result in results if {"original", "improved"} <= set(result.methods) and not why_not(result)]
     if not able:
-        return {"problem": "No claim can be judged: it takes results of the driver lockstep with methods called original and improved, and frames "
-                           "in contact."}
+        return {"problem": "No claim can be judged: it takes results of the driver lockstep and an open loop with methods called original and improved, "
+                           "and frames in contact."}
     # Harder is what reaches less far.
     hard, soft = sorted([able[0], able[min(1, len(able) - 1)]], key=lambda result: result.scene("cutoff_m"))
     try:

@@ -12,6 +12,9 @@ function bytes(text) {
   return result.buffer;
 }
 const floats = (text) => new Float32Array(bytes(text));
+const doubles = (text) => new Float64Array(bytes(text));
+// What single precision holds of a number, without the digits that follow from it alone.
+const held_digits = (value) => Number(value.toPrecision(7));
 
 function save(name, text) {
   const link = document.createElement("a");
@@ -42,22 +45,23 @@ function panels_csv(panels, time) {
   const columns = lines.map((line) => floats(line.values));
   const rows = [["time [s]", ...lines.map((line) => line.name)]];
   for (let i = 0; i < time.length; ++i)
-    rows.push([time[i], ...columns.map((column) => Number.isNaN(column[i]) ? "" : column[i])]);
+    rows.push([time[i], ...columns.map((column) => Number.isNaN(column[i]) ? "" : held_digits(column[i]))]);
   return csv(rows);
 }
 
-// A logarithmic axis is labelled at its decades.
+// A logarithmic axis is labelled at its decades, and at 2 and 5 between them where there are less than two.
 function decades(low, high) {
-  const ticks = [];
-  for (let power = Math.ceil(Math.log10(Math.max(low, 1e-9))); 10 ** power <= high; ++power)
-    ticks.push({v: 10 ** power, label: String(Number((10 ** power).toPrecision(1)))});
+  const ticks = [], least = Math.max(low, 1e-9), parts = high < 100 * least ? [1, 2, 5] : [1];
+  for (let power = Math.floor(Math.log10(least)); 10 ** power <= high; ++power)
+    for (const value of parts.map((part) => Number((part * 10 ** power).toPrecision(1))))
+      if (least <= value && value <= high) ticks.push({v: value, label: String(value)});
   return ticks;
 }
 
 const MARK_SIZE = 3.5;  // pixels
 
 // Dygraphs begins its pattern anew at every point, which leaves none of it in a dense line.
-const dashed_steps = (pattern) => ({drawingContext, color, strokeWidth, points}) => {
+const dashed = (pattern, steps) => ({drawingContext, color, strokeWidth, points}) => {
   drawingContext.save();
   drawingContext.setLineDash(pattern);
   drawingContext.strokeStyle = color;
@@ -66,7 +70,7 @@ const dashed_steps = (pattern) => ({drawingContext, color, strokeWidth, points})
   let last = NaN;
   for (const {canvasx, canvasy} of points) {
     if (Number.isNaN(last)) drawingContext.moveTo(canvasx, canvasy);
-    else drawingContext.lineTo(canvasx, last);
+    else if (steps) drawingContext.lineTo(canvasx, last);
     drawingContext.lineTo(canvasx, canvasy);
     last = canvasy;
   }
@@ -102,11 +106,11 @@ function draw_panel(place, number, panel, time, last) {
   place.append(box);
   const looks = {};
   for (const line of panel.series)
-    looks[line.label] = {color: line.colour, stepPlot: !!line.steps, ...(line.dash && {plotter: dashed_steps(line.dash)}),
+    looks[line.label] = {color: line.colour, stepPlot: !!line.steps, ...(line.dash && {plotter: dashed(line.dash, !!line.steps)}),
                          ...(line.marks ? {strokeWidth: 0, drawPoints: true, pointSize: MARK_SIZE} : {strokeWidth: 1.2})};
   // What is known at some frames only keeps its last value in the legend.
   const last_known = (k, row) => {
-    for (let i = row; i >= 0; --i) if (!Number.isNaN(columns[k][i])) return String(Number(columns[k][i].toFixed(4)));
+    for (let i = row; i >= 0; --i) if (!Number.isNaN(columns[k][i])) return String(Number(columns[k][i].toPrecision(4)));
     return undefined;
   };
   const row_at = (x) => { let row = -1; while (row + 1 < time.length && time[row + 1] <= x) ++row; return row; };
@@ -119,7 +123,7 @@ function draw_panel(place, number, panel, time, last) {
       const row = data.x === undefined ? -1 : row_at(data.x);
       return data.series.map((line, k) => {
         const value = line.yHTML === undefined ? last_known(k, row) : line.yHTML;
-        return `<span class="key" style="--key: ${line.color}">${line.labelHTML}${value === undefined ? "" : ": " + value}</span>`;
+        return `<span class="key${panel.series[k].dash ? " dashed" : ""}" style="--key: ${line.color}">${line.labelHTML}${value === undefined ? "" : ": " + value}</span>`;
       }).join("") + (data.xHTML ? `at ${data.xHTML}` : "");
     },
     underlayCallback: (canvas, area, plot) => { if (panel.limit) draw_limit(canvas, area, plot.toDomYCoord(panel.limit.value), panel.limit.label); },
@@ -157,7 +161,7 @@ function draw_plots() {
   for (const place of document.querySelectorAll(".panels")) {
     const number = Number(place.dataset.result);
     const result = page.results[number];
-    const time = floats(result.time);
+    const time = doubles(result.time);
     const plots = result.panels.map((panel, i) => draw_panel(place, number, panel, time, i === result.panels.length - 1));
     if (plots.length > 1) Dygraph.synchronize(plots, {selection: true, zoom: true, range: false});
     zoom_buttons(place, plots);
@@ -169,11 +173,10 @@ function connect_buttons() {
   for (const made of document.querySelectorAll("[data-csv-table]"))
     made.addEventListener("click", () => save(made.dataset.name, table_csv(document.getElementById(made.dataset.csvTable))));
   for (const made of document.querySelectorAll("[data-csv-text]"))
-    made.addEventListener("click",
-        () => save(made.dataset.csvText, document.getElementById("csv-" + made.dataset.csvText).textContent));
+    made.addEventListener("click", () => save(made.dataset.csvText, page.tables[made.dataset.csvText]));
   for (const made of document.querySelectorAll("[data-csv-result]")) {
     const result = page.results[Number(made.dataset.csvResult)];
-    made.addEventListener("click", () => save(`${result.name}-frames`, panels_csv(result.panels, floats(result.time))));
+    made.addEventListener("click", () => save(`${result.name}-frames`, panels_csv(result.panels, doubles(result.time))));
   }
   document.querySelectorAll(".study table").forEach((table, i) => {
     const study = table.closest(".study").id;

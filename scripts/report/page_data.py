@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The lmdbench authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What the page's plots draw and what their CSV files hold: time series of a result, as little-endian single-precision
-numbers in base64, so that 6,000 frames of a series are 32 kB of page."""
+numbers in base64, so that 6,000 frames of a series are 32 kB of page; times are in double precision, as clocks may count from long ago."""
 
 import base64
 
@@ -13,7 +13,7 @@ from lmdbench_results import reference_force, true_forces, truth_of
 # Lines must be visible on a white and on a dark page.
 ON_BOTH = {style.BLACK: "#777777"}
 RANGE_MARGIN = 1.05
-DASHES = (None, [9, 6], [3, 6])
+DASHES = (None, [9, 6], [3, 6], [9, 6, 3, 6], [20, 6], [9, 6, 3, 6, 3, 6])
 PERCENT_RANGE = [0.0, 105.0]
 LIMIT_RANGE = 1.2  # room above the line for its label
 RECALL_WINDOW = 40  # probed frames: one frame's recall is mostly 0 or 1
@@ -151,4 +151,8 @@ def time_panels(result):
     """The panels of Figure 7 and those that go beyond it; what a result does not hold has no panel."""
     colours = page_colours(result)
     panels = [panel for panel in (make(result, colours) for make in PANELS) if panel]
-    return {"name": result.name, "time": encoded(result.time), "panels": panels}
+    rounds = style.rounds_of(result.methods.values())
+    for line in (line for panel in panels for line in panel["series"]):
+        if number := rounds.get(line["label"], 0):
+            line.setdefault("dash", DASHES[number % len(DASHES)])
+    return {"name": result.name, "time": encoded(result.time, "<f8"), "panels": panels}

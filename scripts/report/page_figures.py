@@ -7,15 +7,13 @@ import csv
 import io
 import json
 
-import markdown
-
 import figure7
 import figure_style as style
 import sweep as sweep_figure
 import work_precision
 from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, role_table
 from lmdbench_results import truth_of
-from studies import slug
+from studies import html_of, slug
 
 
 def csv_text(headings, rows):
@@ -66,7 +64,7 @@ def sweep_entry(sweep, folder):
         sweep_figure.draw(sweep), folder, f"sweep-{sweep.name}", "Error against run time" if sweep.name == "budget" else sweep.title,
         f"{sweep.title}. A line a series, a point a setting, truth in every frame. Lower left is better; shaded lanes hold errors of exactly "
         "zero and points that fail or find no true LMD.", sweep_csv(sweep))
-    return {**made, "html": markdown.markdown("\n".join(tables), extensions=["tables"])}
+    return {**made, "html": html_of("\n".join(tables))}
 
 
 def over_time_entry(results, folder, by_paper):
@@ -79,7 +77,7 @@ def over_time_entry(results, folder, by_paper):
             taken.append(number)
     if not taken:
         return None
-    names = [column.title().rpartition(":")[0] for column in figure7.columns_of([results[i] for i in taken])]
+    names = [column.name() for column in figure7.columns_of([results[i] for i in taken])]
     where = f"From left to right: {'; '.join(names)}. " if len(names) > 1 else ""
     name, title, beyond = ("figure7", "The paper's Figure 7", " beyond the paper") if by_paper else ("over_time", "Over time", "")
     made = entry(figure7.draw(*(results[i] for i in taken)), folder, name, title,
@@ -99,7 +97,7 @@ def clock_entry(result, folder):
         csv_text(["method", "series", "share", "value [s]", "low [s]", "high [s]"],
                  ([name, series, share, *row] for name, clock in named for series in ("floor", "servo", "response", "excess", "response_excess")
                   for share, row in clock.quantiles(series).items())))
-    return {**made, "html": markdown.markdown("\n\n".join("\n".join(table) for table in lists), extensions=["tables"])}
+    return {**made, "html": html_of("\n\n".join("\n".join(table) for table in lists))}
 
 
 def work_precision_text(results):

@@ -22,7 +22,7 @@ import markupsafe  # noqa: E402
 
 from answer import answer  # noqa: E402
 from claims_section import claims_of, evidence  # noqa: E402
-from lmdbench_results import ResultError, run_script, truth_of  # noqa: E402
+from lmdbench_results import no_truth, refuse_foreign, run_script, truth_of  # noqa: E402
 from page_data import page_colours, panels_of  # noqa: E402
 from page_figures import figures  # noqa: E402
 from paper_figures import paper_figures  # noqa: E402
@@ -56,6 +56,11 @@ def in_script(text):
     return re.sub(r"(?i)</(?=script)", r"<\\/", text)
 
 
+def json_in_script(data):
+    """Names in it may begin a comment or a tag, and none of that may be seen before it is parsed."""
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
 def code(text):
     """What stands in backticks, set as code."""
     return markupsafe.Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(plain(text))))
@@ -75,7 +80,7 @@ def title_of(results, sweeps):
 def what_was_run(result):
     methods = ", ".join(method.label for method in result.methods.values())
     probed = next((truth_of(method) for method in result.methods.values() if truth_of(method)), None)
-    truth = f"errors against exhaustive truth (every pair of features) in {probed.frames.size} probed frames" if probed else "no truth probe"
+    truth = f"errors against exhaustive truth (every pair of features) in {probed.frames.size} probed frames" if probed else no_truth(result)
     cutoffs, largest = (" and ".join(dict.fromkeys(f"{method.constant(name) * scale:.4g}" for method in result.methods.values()))
                         for name, scale in (("cutoff_m", 1e3), ("maximum_force_n", 1.0)))
     loop = "in a closed loop, in which every method moves a simulated device of its own" if result.experiment.get("loop", {}).get("kind") == "closed" else ""
@@ -162,7 +167,7 @@ def navigation(entries, results, studies, claims, paper):
 
 def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
     raw = markupsafe.Markup
-    entries = [{**entry, "csv": raw(in_script(entry["csv"])), "html": raw(entry["html"])} for entry in figures(results, sweeps, folder, by_paper)]
+    entries = [{**entry, "html": raw(entry["html"])} for entry in figures(results, sweeps, folder, by_paper)]
     studies = [{**entry, "html": raw(entry["html"])} for entry in study_sections(study_files)]
     printed = [entry for entry in entries if entry["id"] == "over_time"]  # stands with the plots to zoom
     entries = [entry for entry in entries if entry not in printed]
@@ -170,7 +175,7 @@ def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
     sections = navigation(entries, results, studies, claims, paper)
     linked = [(claim, evidence(claim.id, [*sections, *studies])) for claim in claims.get("claims", [])]
     data = {"results": panels_of(results), "scenes": scenes,
-            "colours": [page_colours(result) for result in results]}
+            "colours": [page_colours(result) for result in results], "tables": {entry["id"]: entry["csv"] for entry in entries}}
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters.update(code=code, plain=plain)
     titles = [result.experiment.get("title") for result in results]
@@ -186,17 +191,7 @@ def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),
                    "style": raw("\n".join(library(*item) for item in STYLES))},
         script=raw(in_script(text_of(HERE, "page.js") + text_of(HERE, "scene.js"))),
-        data=raw(in_script(json.dumps(data, separators=(",", ":"), allow_nan=False))))
-
-
-def refuse_foreign_page(file):
-    """Only an earlier page of ours is replaced."""
-    if not os.path.exists(file) or os.path.getsize(file) == 0:
-        return
-    with open(file, "rb") as stream:
-        start = stream.read(1000)
-    if b'content="lmdbench report"' not in start and b"<title>lmdbench" not in start:
-        raise ResultError(f"{file}: is no page of lmdbench, which would replace it (remedy: choose another folder with --out)")
+        data=raw(json_in_script(data)))
 
 
 def main(argv):
@@ -215,7 +210,7 @@ def main(argv):
     folders = [os.path.join(arguments.scenes, str(i)) if arguments.scenes else None for i, _ in runs]
     scenes = [scene(result, folder) for result, folder in zip(results, folders)]
     os.makedirs(arguments.out, exist_ok=True)
-    refuse_foreign_page(os.path.join(arguments.out, "index.html"))
+    refuse_foreign(os.path.join(arguments.out, "index.html"), "page", b'content="lmdbench report"', b"<title>lmdbench")
     paper = paper_figures(arguments.paper) if arguments.paper else []
     text = page(results, sweeps, scenes, arguments.study, arguments.paper is not None, paper, arguments.out)
     print(write_text(text, arguments.out, "index.html"))

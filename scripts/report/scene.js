@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
 // The 3D view: meshes, LMDs, forces and intersection polylines of one frame, with a slider over the frames. Coordinates are
-// the world's, in metres.
+// the world's, in metres, from an origin in the scene: single precision holds little of what is far away.
 
 const LEVELS = 65535;
 const MOVING_COLOUR = 0xa99fd6;  // no method's: figure_style.py
@@ -63,7 +63,7 @@ function mesh_geometry(mesh, meshes) {
 function decoded_track(track) {
   const sets = (packed) => ({offset: packed.offset, rows: floats(packed.rows)});
   const each = (object, decode) => Object.fromEntries(Object.entries(object).map(([name, value]) => [name, decode(value)]));
-  return {...track, time: floats(track.time), position: floats(track.position), orientation: floats(track.orientation),
+  return {...track, time: doubles(track.time), position: floats(track.position), orientation: floats(track.orientation),
           movers: track.movers.map((mover) => ({...mover, position: floats(mover.position), orientation: floats(mover.orientation)})),
           exact: sets(track.exact), own: each(track.own, sets), forces: each(track.forces, floats)};
 }
@@ -137,10 +137,11 @@ class View {
         for (let i = 0; i < force.length; i += 3) this.largest_force = Math.max(this.largest_force, Math.hypot(force[i], force[i + 1], force[i + 2]));
     this.marks = new THREE.Group();
     this.scene.add(this.marks, new THREE.AmbientLight(0xffffff, 0.45));
-    this.camera = new THREE.PerspectiveCamera(35, 1, this.size * 1e-3, this.size * 100);
+    // The eye is near a moving mesh that may be far smaller than what stands.
+    this.camera = new THREE.PerspectiveCamera(35, 1, this.moving_size * 1e-3, this.size * 100);
     this.camera.up.fromArray(this.data.up);
     const lamp = new THREE.DirectionalLight(0xffffff, 0.75);
-    this.camera.add(lamp);
+    this.camera.add(lamp, lamp.target);  // shines as one looks, wherever that is
     lamp.position.set(0.4, 0.8, 1);
     this.scene.add(this.camera);
   }

@@ -43,6 +43,11 @@ def slug(name):
     return re.sub(r"[^a-z0-9]+", "-", name.lower())
 
 
+def html_of(text):
+    """Of Markdown. Links to files beside a study would be broken on the page, and a name that looks like a link is none: both stay as words."""
+    return re.sub(r'<a href="(?!https?:|#)[^"]*">(.*?)</a>', r"\1", markdown.markdown(text, extensions=["tables", "fenced_code"]))
+
+
 def study(file):
     """A section: its first heading is its title."""
     with open(file, encoding="utf-8") as stream:
@@ -50,11 +55,8 @@ def study(file):
     title = re.search(r"(?m)^# (.+)$", text) or re.search(r"(?m)^##? (.+)$", text)
     name = os.path.splitext(os.path.basename(file))[0]
     body = re.sub(r"(?m)^# .+\n", "", text, count=1)
-    body = markdown.markdown(pictures_inside(body, os.path.dirname(file)), extensions=["tables", "fenced_code"])
-    # Links to files beside the study would be broken on the page.
-    body = re.sub(r'<a href="(?!https?:|#)[^"]*">(.*?)</a>', r"\1", body)
-    return {"id": "study-" + slug(name), "name": name, "title": title.group(1) if title else name, "html": body,
-            "open": False}
+    return {"id": "study-" + slug(name), "name": name, "title": title.group(1) if title else name,
+            "html": html_of(pictures_inside(body, os.path.dirname(file))), "open": False}
 
 
 def studies(files):

@@ -17,15 +17,15 @@ LMD = {"distance": 0.1, "point_moving": [1.0, 0.5, 0.5], "point_fixed": [1.1, 0.
 
 
 class Figure1(Scratch):
-    def experiment(self, lmds):
+    def experiment(self, lmds, **changes):
         figure1.write_off(self.write("meshes/cube.off", ""), CUBE, FACES)
         self.write("paths/p.tum", "# a path\n0 0 0 0 0 0 0 1\n2 1 0 0 0 0 0.7071067811865476 0.7071067811865476\n")
         answer = json.dumps({"time": 0, "lmds": lmds})
-        program = self.write("program", f"#!/bin/sh\necho \"$@\" > {self.folder}/asked\ncat > {self.folder}/pose\necho '{answer}'\n")
+        program = self.write("program", f"#!/bin/sh\necho \"$@\" > {self.folder}/asked\ncat > {self.folder}/pose\ncp {self.folder}/out/moving.off {self.folder}/moved\necho '{answer}'\n")
         os.chmod(program, 0o755)
         experiment = self.write("experiments/e.json", json.dumps({
             "name": "e", "moving": {"mesh": "cube", "diagonal_m": 2.0}, "fixed": [{"mesh": "cube"}], "path": {"file": "../paths/p.tum"},
-            "force": {"cutoff_diagonal": 0.1}}))
+            "force": {"cutoff_diagonal": 0.1}, **changes}))
         return ["--program", program, "--out", self.path("out"), "--time", "1.9", experiment]
 
     def test_asks_for_the_pose_and_cutoff_of_the_experiment_and_leaves_two_figures(self):
@@ -33,6 +33,23 @@ class Figure1(Scratch):
         self.assertIn("--cutoff 0.2", self.read("asked"), "a tenth of the scaled mesh's diagonal")
         self.assertTrue(self.read("pose").startswith("2.0 1.0"), "the pose nearest to the time")
         self.assertEqual(sorted(os.listdir(self.path("out"))), ["figure1.png", "figure1.svg"])
+
+    def test_meshes_lie_as_in_a_run(self):
+        scaled = figure1.prepared(CUBE, {"mesh": "cube", "diagonal_m": 2.0})
+        np.testing.assert_allclose(scaled.max(axis=0) + scaled.min(axis=0), 0.0, atol=1e-12)
+        self.assertAlmostEqual(np.linalg.norm(scaled.max(axis=0) - scaled.min(axis=0)), 2.0)
+        np.testing.assert_array_equal(figure1.prepared(CUBE, {"mesh": "cube"}), CUBE)
+        np.testing.assert_array_equal(figure1.prepared(CUBE, {"mesh": "cube", "scale": 0.5, "centre": True}), 0.5 * CUBE - 0.25)
+        self.assertEqual(figure1.main(self.experiment([LMD])), 0)
+        with open(self.path("moved"), encoding="ascii") as stream:
+            self.assertTrue(stream.read().splitlines()[2].startswith("-"), "a corner of the mesh that is asked about")
+
+    def test_other_scenes_are_refused(self):
+        cube = {"mesh": "cube"}
+        for changes, place in (({"objects": [cube, cube]}, "/objects"), ({"movers": [cube]}, "/movers"), ({"fixed": [cube, cube]}, "/fixed/1"),
+                               ({"fixed": [{**cube, "pose": {}}]}, "/fixed/0/pose"), ({"moving": {**cube, "orient": "outward"}}, "/moving/orient")):
+            with self.assertRaisesRegex(ResultError, f"e.json: {place}: not drawn.*remedy"):
+                figure1.main(self.experiment([LMD], **changes))
 
     def test_without_a_time_the_pose_with_lmds_nearest_the_middle_is_shown(self):
         times = [0.0, 1.0, 2.0, 3.0, 4.0]

@@ -16,6 +16,7 @@ import check_format
 import claim_rules
 import claim_runs
 import claims
+import claims_section
 import figure7
 import figure_style
 import lmdbench_results
@@ -97,6 +98,12 @@ class ReadingTest(ScriptsTest):
         for script in ("figure7.py", "claims.py"):
             said = self.refused(lmdbench_results.EXIT_INPUT_DATA, script, self.path("gone.h5"), self.hard, "--out", self.path("out"))
             self.assertIn("gone.h5", said)
+
+    def test_every_script_names_the_file_that_is_wrong(self):
+        self.edited("cut.h5", lambda h5: h5.create_group("polylines"))
+        for script, *files in (("front_page.py", self.hard), ("polylines.py", self.path("cut.h5"))):
+            said = self.refused(lmdbench_results.EXIT_INPUT_DATA, script, *files, "--out", self.path("out"))
+            self.assertTrue(said.startswith(files[0]), said)
 
     def test_scripts_leave_with_the_exit_code_of_the_environment(self):
         occupied = self.write("occupied", "a file where a directory should be")
@@ -213,7 +220,12 @@ class FigureTest(ScriptsTest):
     def test_figure7_without_truth_says_so(self):
         figure = figure7.draw(Result(self.bare), Result(self.bare))
         texts = [text.get_text() for axes in figure.axes for text in axes.texts]
-        self.assertIn("no truth probe in this run", texts)
+        self.assertIn("no truth probe", texts)
+        early = Result(self.edited("early.h5", lambda h5: None, truth_stride=0, settings={"probes": {"truth": {"stride_frames": 20}}}))
+        texts = [text.get_text() for axes in figure7.draw(early).axes for text in axes.texts]
+        self.assertIn("the path ends before the first probed frame", texts)
+        with self.assertRaisesRegex(ResultError, "early.h5: the path ends before the first probed frame.*remedy"):
+            work_precision.draw([early])
 
     def test_figure7_takes_any_labels_profiles_and_methods(self):
         def profiles(h5):
@@ -317,10 +329,20 @@ class SummaryTest(ScriptsTest):
         self.assertEqual(len(rows), 5)
         for line in rows:
             self.assertRegex(line, r"\d+\.\d \(\d+\.\d\)")  # recall
-        self.assertRegex(rows[0], r"1 \(2\) +none +0\.005 \(0\.01\) +2 \(4\) +80\.0 \(90\.0\) +70\.0 \(95\.0\) +0\.90 +12\.7 \[7\.\d+, 19\.\d+\]")
+        self.assertRegex(rows[0], r"1 \(2\) +none +0\.005 \(0\.01\) +2 \(4\) +80\.0 \(90\.0\) +70\.0 \(95\.0\) +0\.9 +12\.7 \[7\.\d+, 19\.\d+\]")
         self.assertIn("0 disagree, worst relative difference 2.0e-09", text)
         self.assertIn("hard.h5", text)
         self.assertIn("Note: synthetic data", text)
+
+    def test_small_forces_and_missing_times_are_told(self):
+        def small(h5):
+            h5["methods/original/summary/force_error_rms_n"][...] = 4.321e-5
+            for label in ("original", "improved"):
+                del h5[f"methods/{label}/local_update_time"]
+
+        text = self.printed(summary.main, self.edited("small.h5", small))
+        self.assertIn(" 4.32e-05 ", text)
+        self.assertIn("times were not kept;", text)
 
     def test_missing_errors_are_shouted(self):
         self.assertIn("NO TRUTH PROBE", self.printed(summary.main, self.bare))
@@ -413,6 +435,29 @@ class ClaimsTest(ScriptsTest):
         self.assertIn("above 1 kHz", self.verdicts(self.edited("slow.h5", slow), self.soft)["K9"].because)
         small = write_result(self.path("small.h5"), triangles=500)
         self.assertIn("10,000 triangles", self.verdicts(small, self.soft)["K9"].because)
+
+    def test_what_was_not_measured_does_not_fail(self):
+        def unknown(h5):
+            h5["methods/improved/force"][...] = 0.0
+            for label in ("original", "improved"):
+                for name in ("force_error_rms_n", "recall", "recall_adjacent", "reduction_ratio", "reduction_ratio_maximum"):
+                    h5[f"methods/{label}/summary/{name}"][...] = np.nan
+
+        file = self.edited("unknown.h5", unknown)
+        claims = self.verdicts(file, file)
+        self.assertEqual([claims[name].setting for name in ("K3", "K5", "K10")], ["undecided", "undecided", "not measured"])
+        for claim in claims.values():
+            self.assertNotRegex(claim.result, r"\bnan\b")
+        self.assertEqual(claim_runs.inside([np.nan, np.nan], 1.0), None)
+
+    def test_runs_whose_methods_see_different_frames_are_refused(self):
+        changes = {"closed": lambda h5: h5.create_group("methods/original/loop"), "realtime": lambda h5: h5.create_group("realtime"),
+                   "no frame in contact": lambda h5: h5["summary/frames_in_contact"].write_direct(np.zeros(1))}
+        for words, change in changes.items():
+            file = self.edited(f"{words}.h5", change)
+            with self.assertRaisesRegex(ResultError, f"{words}.h5: .*{words}.*remedy"):
+                self.verdicts(self.hard, file)
+            self.assertIn("No claim can be judged", claims_section.claims_of([Result(file)])["problem"])
 
     def test_ledger_is_written(self):
         text = self.printed(claims.main, self.hard, self.soft, "--out", self.path("ledger"))

@@ -3,12 +3,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Attribution of force jumps on sets made by hand."""
 
+import collections
 import unittest
 
+import h5py
 import numpy as np
 
-import cases  # noqa: F401
+import cases
 import jumps
+from lmdbench_results import ResultError
+from synthetic import write_result
 
 STEP = 1e-5
 CUTOFF = 1e-3
@@ -64,6 +68,24 @@ class Law(unittest.TestCase):
             self.assertEqual(jumps.law(1.0, 1.0, 0.1, 3.0, 4.0, name), 0.0)
         self.assertAlmostEqual(jumps.law(0.55, 1.0, 0.1, 3.0, 4.0, "linear"), 1.5)
         self.assertAlmostEqual(jumps.law(0.55, 1.0, 0.1, 3.0, 4.0, "exponential"), 3.0 * np.expm1(2.0) / np.expm1(4.0))
+
+
+class Results(cases.Scratch):
+    def test_what_has_no_direction_is_no_jump_and_is_counted(self):
+        text = jumps.table({"a": collections.defaultdict(list, {"fold": [0.5, np.nan, 1.0], "loss": [np.nan]})}, 2.0, 4.0)
+        self.assertIn("| 2, 0.25/s, 0.50; 1 without direction |", text)
+        self.assertIn("| none; 1 without direction |", text)
+        self.assertNotIn("nan", text)
+
+    def test_other_scenes_are_refused(self):
+        changes = {"movers": lambda h5: h5.create_group("path/movers/position"), "deforms": lambda h5: h5["scene/moving"].attrs.create("deformation", "bend"),
+                   "closed loop": lambda h5: h5.create_group("methods/original/path/position")}
+        for words, change in changes.items():
+            file = write_result(self.path(f"{words}.h5"), frames=100)
+            with h5py.File(file, "a") as h5:
+                change(h5)
+            with self.assertRaisesRegex(ResultError, f"{words}.h5: has .*{words}.*remedy"):
+                jumps.attribute(file)
 
 
 class Travel(unittest.TestCase):

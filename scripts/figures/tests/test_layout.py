@@ -3,17 +3,20 @@
 """Figures of results as users have them: any number of methods, long names, one result to four. No text may be cut off by the page or lie on
 another one. Run: python3 -m unittest discover scripts/figures/tests"""
 
+import warnings
+
 import h5py
 
 from cases import SharedScratch
 import figure7
 import figure_style
+import page_data
 import work_precision
 from lmdbench_results import Result
 from synthetic import write_result
 
 METHODS = ("original", "improved", "certified", "exhaustive")
-FURTHER = {5: ("my-own-variant-with-a-long-label",), 6: ("my-own-variant-with-a-long-label", "second")}
+FURTHER = {5: ("my-own-variant-with-a-long-label",), 6: ("my-own-variant-" + "m" * 90, "the-second-variant-" + "m" * 90)}
 NAMES = ("a", "bolt-mm-nut-mm", "housing-cover-left-v12-final-gearbox-mm-contact",
          "peg-and-hole-of-the-assembly-with-every-tolerance-at-its-lower-limit-and-a-name-as-long-as-files-have")
 SLACK = 1.0  # pixels that antialiasing may stand beyond
@@ -95,6 +98,63 @@ class LayoutTest(SharedScratch):
         self.assertEqual(figure_style.shortened("peg-hole"), "peg-hole")
         long = figure_style.shortened("left" + "-" * 80 + "right")
         self.assertEqual((len(long), long[:4], long[-5:]), (figure_style.LONGEST_NAME, "left", "right"))
+
+    def test_dollars_in_names_begin_no_formula(self):
+        for name in ("cu$^$.off", "a$x^{ $"):
+            result = self.result(name)
+            self.check(figure7.draw(result), "figure 7")
+            self.check(work_precision.draw([result, self.result("$", 4, 2)]), "error against run time")
+            figure_style.note_failures(figure := figure_style.plt.figure(), {name: "is missing"})
+            figure.canvas.draw()
+
+    def test_one_frame_is_seen(self):
+        file = write_result(self.path("one.h5"), frames=1, repetitions=3, truth_stride=0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            figure = figure7.draw(Result(file))
+        for axes in figure.axes[:4]:
+            self.assertIn("o", [line.get_marker() for line in axes.lines])
+        self.check(figure, "figure 7")
+
+    def test_labels_stay_within_their_panels_in_four_columns(self):
+        def labels(axes):
+            low, high = axes.get_ylim()
+            return [tick.label1.get_window_extent(renderer) for tick in axes.yaxis.get_major_ticks() if low <= tick.get_loc() <= high]
+
+        file = write_result(self.path("wide.h5"), frames=1001, repetitions=3)
+        with h5py.File(file, "a") as h5:
+            h5["methods/original/local_update_time"][...] = 2e-2
+        figure = figure7.draw(*[Result(file)] * 4)
+        self.check(figure, "figure 7")
+        renderer = figure.canvas.get_renderer()
+        for left, axes in ((figure.axes[place], figure.axes[place + 1]) for place in range(19) if place % 4 < 3):
+            for box in labels(axes):
+                self.assertGreater(box.x0, left.get_window_extent(renderer).x1)
+
+    def test_a_share_does_not_exceed_all(self):
+        file = write_result(self.path("half.h5"), frames=600, repetitions=3)
+        with h5py.File(file, "a") as h5:
+            for name in ("recall", "recall_adjacent"):
+                h5[f"methods/original/summary/{name}"][...] = 0.05
+        figure = work_precision.draw([Result(file)])
+        self.assertLessEqual(figure.axes[1].get_xlim()[1], 1.0)
+        self.assertLess(figure.axes[1].get_xlim()[0], 0.3)
+
+    def test_methods_of_one_colour_are_dashed_apart(self):
+        result = self.result("many")
+        with h5py.File(self.path("many12.h5"), "w") as h5:
+            for name in result.h5:
+                result.h5.copy(name, h5)
+            h5.attrs.update(result.h5.attrs)
+            for number in range(14):
+                h5.copy("methods/improved", f"methods/variant-{number}")
+        (column,) = figure7.columns_of([Result(self.path("many12.h5"))])
+        looks = [(look["color"], str(look["ls"])) for look in column.look.values()]
+        self.assertEqual(len(set(looks)), len(looks))
+        lines = {line["label"]: (line["colour"], str(line.get("dash"))) for line in page_data.time_panels(column.result)["panels"][0]["series"]}
+        self.assertEqual(len(set(lines.values())), len(lines))
+        figure7.draw(column.result)
+        work_precision.draw([column.result])
 
     def test_the_check_sees_faults(self):
         figure, axes = figure_style.plt.subplots(figsize=(3, 2))

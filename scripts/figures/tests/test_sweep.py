@@ -149,6 +149,16 @@ class SweepFile(SweepScratch):
         self.assertIn("finds no true LMD", note)
         sweep.plt.close(figure)
 
+    def test_names_are_no_formula_and_no_html(self):
+        name = "hard, fixed/mesh cu$^$<b>|.off"
+        figure = sweep.draw(self.sweep([{**entry, "problem": name, "axes": json.dumps({"/fixed/mesh": f"cu$^${i}.off"})} for i, entry in enumerate(ROWS)]))
+        figure.canvas.draw()
+        self.assertIn("cu\\$^\\$<b>|.off", figure.axes[0].get_title("left"))
+        sweep.plt.close(figure)
+        text = sweep.markdown(self.sweep([{**entry, "problem": name} for entry in ROWS]), "")
+        self.assertIn("\n## hard, fixed/mesh cu$^$&lt;b&gt;|.off\n", text)
+        self.assertIn("| hard, fixed/mesh cu$^$&lt;b&gt;\\|.off |", text)
+
     def test_the_same_sweep_makes_the_same_bytes_of_svg(self):
         write_sweep(self.file, ROWS)
         for name in ("a", "b"):

@@ -59,6 +59,14 @@ class WorldFigure(Scratch):
         with self.assertRaises(ResultError):
             found.place(6)
 
+    def test_in_a_closed_loop_the_device_of_the_method_moves(self):
+        write(self.file)
+        with h5py.File(self.file, "a") as file:
+            file["methods/certified/path/position"] = np.full((3, 3), 7.0)
+            file["methods/certified/path/orientation"] = file["path/orientation"][:]
+            found = world.World(file, "certified")
+        self.assertEqual(found.position[1].tolist(), [7.0, 7.0, 7.0])
+
     def test_places_meshes_by_their_diagonal(self):
         corners = world.Meshes(self.folder).corners("box", 2.0, np.array([5.0, 0.0, 0.0]), np.array([0.0, 0.0, 0.0, 1.0]))
         points = corners.reshape(-1, 3)
