@@ -151,23 +151,25 @@ TEST(Aggregation, LayeredIsTheMeanOverTheSurface) {
   const CriticalSet set{critical(0.2, u, 1)};
   constexpr double AREA = 0.3, KAPPA = 0.5, SUM = AREA + KAPPA;
   const std::vector<SurfaceSample> samples{sample_at(0.4, v, AREA)};
-  const Vec3 force = layered_law().combine({set, {}, samples, KAPPA}, PROFILE_OF_ONE, Vec3::Zero()).force;
+  const std::vector<double> areas{KAPPA};
+  const Vec3 force = layered_law().combine({set, {}, samples, areas}, PROFILE_OF_ONE, Vec3::Zero()).force;
   // The integral of AREA (t - 0.4) / (SUM t - b) from 0.4 to 1.
   const double b = 0.4 * AREA + 0.2 * KAPPA;
   const double share = AREA / SUM * (0.6 + (b / SUM - 0.4) * std::log((SUM - b) / (0.4 * SUM - b)));
   expect_near(force, -(0.2 + 0.6 - share) * u - share * v, 1e-4);
   // Without any patch `layered` is `shared`.
-  expect_near(layered_law().combine({set, {}, {}, KAPPA}, PROFILE_OF_ONE, Vec3::Zero()).force, -0.8 * u);
+  expect_near(layered_law().combine({set, {}, {}, areas}, PROFILE_OF_ONE, Vec3::Zero()).force, -0.8 * u);
 }
 
 TEST(Aggregation, APatchBeginsWithoutAJump) {
   const CriticalSet set{critical(0.2, {0, 0, 1}, 1), critical(0.3, {0, 1, 0}, 1),
                         critical(0.6, {1, 0, 0}, -1)};
   const std::vector<Merge> merges{{2, 0, 1}};
+  const std::vector<double> areas{0.1, 0.1, 0.0};
   const auto force_with = [&](double distance) {
     const std::vector<SurfaceSample> samples{sample_at(0.25, {0, 0.6, 0.8}, 2.0),
                                              sample_at(distance, {0.8, 0, 0.6}, 1.0)};
-    return layered_law().combine({set, merges, samples, 0.1}, PROFILE_OF_ONE, Vec3::Zero()).force;
+    return layered_law().combine({set, merges, samples, areas}, PROFILE_OF_ONE, Vec3::Zero()).force;
   };
   expect_near(force_with(1.0 - 1e-9), force_with(2.0), 1e-8);
   // Nor is there a jump where it passes the level of another patch or of the saddle.
@@ -178,12 +180,13 @@ TEST(Aggregation, APatchOfTheSameDirectionChangesNothing) {
   const Vec3 u = Vec3(0.3, -0.2, 0.9).normalized();
   const CriticalSet set{critical(0.05, u, 1)};
   const std::vector<SurfaceSample> samples{sample_at(0.07, u, 1.0), sample_at(0.3, u, 3.0)};
+  const std::vector<double> areas{0.1};
   for (const ForceLaw law : force_laws())
     for (const double saturation : {0.0, 0.06, 0.2, 0.299, 0.4}) {
       ForceProfile profile = PROFILE_OF_ONE;
       profile.law = law;
       profile.saturation_distance = saturation;
-      expect_near(layered_law().combine({set, {}, samples, 0.1}, profile, Vec3::Zero()).force,
+      expect_near(layered_law().combine({set, {}, samples, areas}, profile, Vec3::Zero()).force,
                   -force_magnitude(profile, 0.05) * u, 1e-13);
     }
 }

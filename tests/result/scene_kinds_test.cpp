@@ -104,6 +104,42 @@ TEST(SceneKinds, AnInstanceExertsWhatTheSameMeshInItsPlaceExerts) {
   }
 }
 
+TEST(SceneKinds, TheDefaultCutoffIsTheSameHoweverTheSceneIsTold) {
+  const ScratchDirectory scratch;
+  const std::string places = scratch.write("places.txt", "0 0 0 0 0 0 1\n");
+  const auto cutoff = [&](const std::vector<std::string>& fixed, const std::vector<Override>& more = {}) {
+    std::vector<Override> overrides{R"(/force={"maximum_force_n":0.5})", "/frames=2"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return run_scene({BLOB}, fixed, {}, overrides).prepared.scene().cutoff;
+  };
+  const std::string small = R"("mesh":"small-blob","diagonal_m":0.05)";
+  const double told = cutoff({small});
+  EXPECT_GT(told, 0.0);
+  EXPECT_EQ(cutoff({small, TURNED}), told);
+  EXPECT_EQ(cutoff({small, TURNED}, {"/record/polylines/stride_frames=1"}), told);
+  EXPECT_EQ(cutoff({small, TURNED}, {"/force/aggregation=shared"}), told);
+  EXPECT_EQ(cutoff({small, TURNED, R"("instances":{"rule":"list","file":")" + places + "\"}"}), told);
+}
+
+TEST(SceneKinds, ABystanderChangesNoForce) {
+  const std::string torus = in_braces({TORUS, TURNED});
+  for (const std::string& law : AGGREGATIONS) {
+    const auto forces = [&](const std::string& bystander) {
+      return forces_of(run_scene({BLOB}, {TORUS}, {},
+                                 {"/fixed=[" + torus + bystander + "]", "/force/aggregation=" + law}));
+    };
+    const std::vector<Vec3> alone = forces("");
+    const std::vector<Vec3> beside =
+        forces(R"(,{"mesh":"small-blob","diagonal_m":0.001,"pose":{"translation_m":[10,0,0]}})");
+    double largest = 0.0;
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_LT((alone[i] - beside[i]).norm(), 1e-12) << law << ", frame " << i;
+      largest = std::max(largest, alone[i].norm());
+    }
+    EXPECT_GT(largest, 0.01) << law;
+  }
+}
+
 TEST(SceneKinds, WhatTwoMoversExertOnEachOtherIsOpposite) {
   for (const std::string& aggregation : AGGREGATIONS) {
     // The torus moves too, and nothing else is near.

@@ -3,7 +3,6 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/drivers/contact_finder.h>
 #include <lmdbench/lmd/own_wrench.h>
-#include <lmdbench/mesh/triangle_mesh.h>
 #include <lmdbench/scene/mesh_bounds.h>
 #include <lmdbench/scene/mesh_pair.h>
 
@@ -15,17 +14,6 @@
 namespace lmdbench {
 
 namespace {
-
-double minimum_area_of(const Scene& scene, double share) {
-  LMDBENCH_EXPECTS(share >= 0.0, "a share that is negative or not a number");
-  if (!scene.moving) return 0.0;
-  double diagonal = bounding_box_diagonal(scene.moving->surface().mesh);
-  const Body* last = nullptr;
-  for (std::size_t i = 0; i < scene.object_count(); ++i)
-    if (const Body* body = scene.body(i).get(); std::exchange(last, body) != body)
-      diagonal = std::min(diagonal, bounding_box_diagonal(body->surface().mesh));
-  return share * scene.cutoff * diagonal;
-}
 
 /// A patch of the first mesh of a pair as the second one feels it, at the distance's other end.
 SurfaceSample turned_round(const SurfaceSample& sample) {
@@ -47,12 +35,9 @@ std::optional<Wrench> own_force_of(const Method* method, std::size_t mover, cons
 }  // namespace
 
 ContactFinder::ContactFinder(const Aggregation& aggregation, Scene scene, const LayeredChoice& layered)
-    : aggregation_(aggregation),
-      scene_(std::move(scene)),
-      patch_cutoff_(layered.patch_cutoff),
-      minimum_area_(aggregation.needs == AggregationNeeds::SURFACE
-                        ? minimum_area_of(scene_, layered.minimum_area_share)
-                        : 0.0) {}
+    : aggregation_(aggregation), scene_(std::move(scene)), layered_(layered) {
+  LMDBENCH_EXPECTS(layered.minimum_area_share >= 0.0, "a share that is negative or not a number");
+}
 
 void ContactFinder::search(Method& method, const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) {
   if (aggregation_.needs == AggregationNeeds::MINIMA) return method.search(X_WM, lmds, counters);
@@ -77,6 +62,7 @@ const NearFrame& ContactFinder::near_frame_of(const ObjectPair& pair) {
 void ContactFinder::find_merges(const Pose& X_WM) {
   merges_.clear();
   samples_.clear();
+  minimum_areas_.assign(aggregation_.needs == AggregationNeeds::SURFACE ? critical_.size() : 0, 0.0);
   std::map<std::int32_t, std::vector<std::size_t>> by_pair;
   for (std::size_t i = 0; i < critical_.size(); ++i) by_pair[critical_[i].pair.fixed_body].push_back(i);
   CriticalSet own;
@@ -95,7 +81,10 @@ void ContactFinder::find_merges(const Pose& X_WM) {
     for (const Merge& merge : merges)
       merges_.push_back({places[merge.saddle], places[merge.first], places[merge.second]});
     if (aggregation_.needs != AggregationNeeds::SURFACE) continue;
-    SurfaceSampler(near.scene(), patch_cutoff_).find(place.X_FM, own, merges, finder, samples);
+    const double smaller = std::min(scene_.body(pair.mover)->diagonal(), scene_.body(pair.other)->diagonal());
+    for (const std::size_t i : places)
+      minimum_areas_[i] = layered_.minimum_area_share * scene_.cutoff * smaller;
+    SurfaceSampler(near.scene(), layered_.patch_cutoff).find(place.X_FM, own, merges, finder, samples);
     for (SurfaceSample& sample : samples) {
       sample.point_moving += place.origin_F;
       if (!place.is_world) {
@@ -143,6 +132,7 @@ void ContactFinder::split(const LmdSet& lmds) {
       if (!is_own[i]) continue;
       place[i] = part.critical.size();
       part.critical.push_back(critical_[i]);
+      if (!minimum_areas_.empty()) part.minimum_areas.push_back(minimum_areas_[i]);
       if (is_turned[i]) part.critical.back().pair = lmdbench::turned_round(critical_[i].pair);
     }
     for (const Merge& merge : merges_)
@@ -161,7 +151,7 @@ Wrench ContactFinder::wrench_on(std::size_t mover, const ForceProfile& profile, 
   if (const auto own = own_force_of(method, mover, profile, reference_W)) return *own;
   const Part& part = parts_[mover];
   if (is_sum()) return sum_forces(part.lmds, profile, reference_W);
-  return aggregation_.combine({part.critical, part.merges, part.samples, minimum_area_}, profile,
+  return aggregation_.combine({part.critical, part.merges, part.samples, part.minimum_areas}, profile,
                               reference_W);
 }
 
@@ -174,7 +164,7 @@ Wrench ContactFinder::combine(const LmdSet& lmds, const ForceProfile& profile, c
   if (const auto own = own_force_of(method, 0, profile, reference_W)) return *own;
   if (is_sum()) return sum_forces(lmds, profile, reference_W);
   take(lmds);
-  return aggregation_.combine({critical_, merges_, samples_, minimum_area_}, profile, reference_W);
+  return aggregation_.combine({critical_, merges_, samples_, minimum_areas_}, profile, reference_W);
 }
 
 Wrench ContactFinder::wrench_at(Method& method, const Pose& X_WM, const ForceProfile& profile,

@@ -18,7 +18,7 @@ namespace lmdbench {
 /// Constants of `layered`.
 struct LayeredChoice {
   double patch_cutoff = PATCH_CUTOFF;  ///< SurfaceSampler's.
-  /// ForceInput::minimum_area over cutoff * the smallest mesh's diagonal: minima only direct
+  /// A minimum's area over cutoff * the diagonal of the pair's smaller mesh: minima only direct
   /// components without a patch (`lmdbench-study continuous-force --part bores --minimum-area`).
   double minimum_area_share = 0.025;
 };
@@ -71,6 +71,7 @@ class ContactFinder {
     CriticalSet critical;
     std::vector<Merge> merges;
     std::vector<SurfaceSample> samples;
+    std::vector<double> minimum_areas;  ///< As ForceInput's.
   };
 
   bool is_sum() const { return aggregation_.name == sum_law().name; }
@@ -80,7 +81,7 @@ class ContactFinder {
 
   const Aggregation& aggregation_;
   Scene scene_;
-  double patch_cutoff_, minimum_area_;
+  LayeredChoice layered_;
   struct Near {
     NearFrame frame;
     std::uint64_t deformations;
@@ -90,6 +91,7 @@ class ContactFinder {
   CriticalSet critical_;
   std::vector<Merge> merges_;
   std::vector<SurfaceSample> samples_;
+  std::vector<double> minimum_areas_;
   std::vector<Part> parts_;  ///< One a mover, where several move.
 };
 

@@ -87,10 +87,10 @@ std::vector<DefaultNote> add_file_defaults(Json& document, const std::filesystem
 }
 
 double default_cutoff(const Scene& scene, std::vector<DefaultNote>& notes) {
-  double diagonal = bounding_box_diagonal(scene.moving->surface().mesh);
+  double diagonal = scene.moving->diagonal();
   double edge = mean_edge_length(scene.moving->surface().mesh);
   for (const auto& fixed : scene.fixed) {
-    diagonal = std::min(diagonal, bounding_box_diagonal(fixed->surface().mesh));
+    diagonal = std::min(diagonal, fixed->diagonal());
     edge = std::max(edge, mean_edge_length(fixed->surface().mesh));
   }
   const double by_size = DEFAULT_CUTOFF_DIAGONALS * diagonal;

@@ -48,8 +48,8 @@ struct ForceInput {
   const CriticalSet& critical;               ///< Up to the profile's cutoff.
   std::span<const Merge> merges{};           ///< By the saddle's distance.
   std::span<const SurfaceSample> samples{};  ///< In any order.
-  /// What one minimum weighs among patches of surface [m^2] (`layered`).
-  double minimum_area = 0.0;
+  /// What each minimum weighs among patches of surface [m^2] (`layered`), by critical pair.
+  std::span<const double> minimum_areas{};
 };
 
 struct Aggregation {

@@ -23,12 +23,19 @@ namespace lmdbench {
 /// except by `deform`. Preparations of some methods (a hierarchy) are made once, on demand.
 class Body {
  public:
-  Body(std::string name, Surface surface) : name_(std::move(name)), surface_(std::move(surface)) {}
+  /// @param diagonal  unset: of the surface's box; one that stands has it turned into the world
+  Body(std::string name, Surface surface, std::optional<double> diagonal = std::nullopt)
+      : name_(std::move(name)),
+        surface_(std::move(surface)),
+        diagonal_(diagonal ? *diagonal : bounding_box_diagonal(surface_.mesh)) {}
   Body(const Body&) = delete;
   Body& operator=(const Body&) = delete;
 
   const std::string& name() const { return name_; }
   const Surface& surface() const { return surface_; }
+  /// Of the mesh's box in its own frame, before it was placed or deformed [m]: however a scene is
+  /// told, its sizes are the same.
+  double diagonal() const { return diagonal_; }
 
   /// `T::of(*this)` or else `T::of(surface())`, made at the first call and shared by later ones,
   /// from any thread. A look-up costs a lock: methods ask once and keep the reference, which stays
@@ -98,6 +105,7 @@ class Body {
 
   std::string name_;
   Surface surface_;
+  double diagonal_;
   std::optional<SurfaceMover> mover_;
   Eigen::AlignedBox3d box_at_rest_;  ///< Once the mesh was deformed.
   std::uint32_t deformations_ = 0;

@@ -42,11 +42,13 @@ MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
     note.vertices = std::make_shared<const FrameVertices>(
         *object.deformation, DeformingMesh{resolved.mesh, object.placement, mesh, X_WF},
         experiment.frame_rate_hz);
+  const double diagonal = bounding_box_diagonal(mesh);
   if (X_WF)
     for (Vec3& vertex : mesh.vertices) vertex = RigidTransform(*X_WF).point(vertex);
   refuse_extreme_size(mesh, object.mesh);
-  note.body = std::make_shared<const Body>(object.mesh, build_surface(std::move(mesh)));
+  note.body = std::make_shared<const Body>(object.mesh, build_surface(std::move(mesh)), diagonal);
   note.report = check_mesh(note.body->surface());
+  note.report.diagonal = diagonal;
   return note;
 }
 

@@ -62,8 +62,8 @@ void there_and_back(std::vector<Frame>& frames, std::size_t wanted) {
 
 /// Diagonal of the smallest mesh [m].
 double least_diagonal(const Scene& scene) {
-  double least = bounding_box_diagonal(scene.moving->surface().mesh);
-  for (const auto& fixed : scene.fixed) least = std::min(least, bounding_box_diagonal(fixed->surface().mesh));
+  double least = scene.moving->diagonal();
+  for (const auto& fixed : scene.fixed) least = std::min(least, fixed->diagonal());
   return least;
 }
 

@@ -32,9 +32,10 @@ struct Push {
 
 /// One component of {distance <= t} while t rises.
 struct Component {
-  double level = 0.0;   ///< t up to which it has pushed.
-  double length = 0.0;  ///< Of its branches up to there.
-  Push of_minima;       ///< Weighted by their shares.
+  double level = 0.0;         ///< t up to which it has pushed.
+  double length = 0.0;        ///< Of its branches up to there.
+  Push of_minima;             ///< Weighted by their shares.
+  double minimum_area = 0.0;  ///< All of its minima weigh as this one: they are of one pair.
   // Sums over its patches: that of area (t - distance) is t * area - area_distance; so of pushes.
   double area = 0.0, area_distance = 0.0;
   Push push, push_distance;
@@ -53,6 +54,8 @@ class LevelIntegral {
 
   Wrench run() {
     const CriticalSet& critical = input_.critical;
+    LMDBENCH_EXPECTS(input_.minimum_areas.empty() || input_.minimum_areas.size() == critical.size(),
+                     "parallel arrays of unlike lengths");
     LMDBENCH_EXPECTS(std::ranges::is_sorted(input_.merges, {},
                                             [&](const Merge& m) { return critical[m.saddle].pair.distance; }),
                      "merges that are not sorted by the distance of their saddles");
@@ -60,7 +63,14 @@ class LevelIntegral {
       const Lmd& lmd = critical[i].pair;
       if (!critical[i].is_basin || !WrenchSum::acts(lmd, profile_)) continue;
       component_of_[i] = components_.size();
-      components_.push_back({lmd.distance, 0.0, push_of(lmd.direction, lmd.point_moving), 0.0, 0.0, {}, {}});
+      components_.push_back({lmd.distance,
+                             0.0,
+                             push_of(lmd.direction, lmd.point_moving),
+                             input_.minimum_areas.empty() ? 0.0 : input_.minimum_areas[i],
+                             0.0,
+                             0.0,
+                             {},
+                             {}});
       parent_.push_back(parent_.size());
       sum_.stiffen(lmd.direction, lmd.direction, force_stiffness(profile_, lmd.distance));
     }
@@ -98,7 +108,7 @@ class LevelIntegral {
 
   /// Mean push at a level not below the component's.
   Push mean_at(const Component& c, double level) const {
-    const double of_minima = input_.minimum_area * (c.length + (level - c.level));
+    const double of_minima = c.minimum_area * (c.length + (level - c.level));
     const double weight = level * c.area - c.area_distance + of_minima;
     // No patch within the level yet, or of a law without patches.
     if (!(c.area > 0.0) || !(weight > 0.0)) return c.of_minima;

@@ -14,7 +14,7 @@ namespace lmdbench {
 /// - without samples: of its minima, -u each, by shares. A merge multiplies a side's shares by its
 ///   part of all branches' length: a minimum vanishes where it dies, in any order of merges;
 /// - with samples: of its patches of surface, each by area (t - its distance), and of its minima,
-///   all together by `minimum_area` times the length of all branches.
+///   all together by its area (`minimum_areas`) times the length of all branches.
 /// Weights are not negative, so no force ever pulls.
 /// @param samples  ForceInput's, or none
 Wrench integrate_levels(const ForceInput& input, std::span<const SurfaceSample> samples,
