@@ -63,6 +63,28 @@ TEST(SimulatedGimbal, HandTurnsTheDeviceAlongThePath) {
   EXPECT_LT(drawn.orientation().angularDistance(behind), 1e-7);
 }
 
+TEST(SimulatedGimbal, AngularVelocityIsThatOfItsOrientation) {
+  // A stiff push far from a path that turns about a changing axis.
+  const Hand hand{"custom", 1e-4, 0.01, 0.5, 0.0, 0.0};
+  SimulatedGimbal gimbal(turning(1e-4, 2e-3, hand), 1e-4, LEVEL, Vec3(0.3, -0.2, 0.1), 0.0);
+  const auto path = [](int n) {
+    return rotation_of(Vec3(0.0, 0.0, 5e-4 * n)) * rotation_of(Vec3(3e-4 * n, 0.0, 0.0));
+  };
+  double furthest = 0.0;
+  for (int n = 1; n <= 5000; ++n) {
+    const Quaterniond before = gimbal.orientation();
+    const Vec3 at_begin = gimbal.angular_velocity();
+    gimbal.advance(NOTHING, path(n));
+    const Vec3 mean = rotation_vector_of(gimbal.orientation() * before.conjugate()) / 1e-4;
+    const Vec3 ends = 0.5 * (at_begin + gimbal.angular_velocity());
+    if (n > 1) {  // in the first step the path starts at once
+      EXPECT_LT((ends - mean).norm(), 1e-3 * (1.0 + ends.norm())) << n;
+    }
+    furthest = std::max(furthest, gimbal.offset().norm());
+  }
+  EXPECT_GT(furthest, 0.5);
+}
+
 /// A magnet b in a field m has the potential -m (R b). The energy that the sampled torque adds
 /// vanishes with the period, through turns beyond a right angle about a changing axis.
 TEST(SimulatedGimbal, ConservativeTorqueConservesEnergyAtLargeTurns) {

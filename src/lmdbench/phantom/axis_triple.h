@@ -48,6 +48,7 @@ class AxisTriple {
 
   Vec3 offset() const { return at_each(AxisSlot::POSITION); }  ///< From the meant path.
   Vec3 velocity() const { return at_each(AxisSlot::VELOCITY); }
+  Vec3 path_velocity() const { return at_each(AxisSlot::PATH_VELOCITY); }  ///< In the last period.
   EnergyAccount energy() const;
 
  private:

@@ -76,6 +76,13 @@ void SimulatedGimbal::advance(const Vec3& torque_W, const Eigen::Quaterniond& ne
   if (has_hand_) path_orientation_ = next_path_orientation;
 }
 
+Vec3 SimulatedGimbal::angular_velocity() const {
+  const Vec3 y = axes_.offset();
+  const Vec3 path_W = axes_.path_velocity();
+  // Of exp(y) R_path: J(y) y' and the path's, turned along; J(y) = J(-y)^T.
+  return generalised_torque(-y, axes_.velocity() - path_W) + rotation_of(y) * path_W;
+}
+
 Eigen::Quaterniond SimulatedGimbal::orientation() const {
   return (rotation_of(axes_.offset()) * path_orientation_).normalized();
 }

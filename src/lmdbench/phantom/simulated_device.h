@@ -50,7 +50,9 @@ class SimulatedDevice {
 /// small. Without a hand, beyond half a turn, it is a gimbal, no free body.
 ///
 /// The rendered torque t acts as J(y)^T t, of the same work (angular velocity w = J(y) y'): what
-/// conserves energy in the world does so here. The path turns at a constant rate between ticks.
+/// conserves energy in the world does so here. Energies are the gimbal's: where the path turns too,
+/// work is by its coordinates' rates, whose share of the path's turn is right to first order in y.
+/// The path turns at a constant rate between ticks.
 
 /// A world torque on the coordinates y: J(y)^T torque, J the left Jacobian of the rotation vector.
 Vec3 generalised_torque(const Vec3& rotation_vector, const Vec3& torque_W);
@@ -74,9 +76,8 @@ class SimulatedGimbal {
   /// From the encoders: rotation vector from the start, each component rounded to the resolution.
   Eigen::Quaterniond sensed_orientation() const;
   Vec3 offset() const { return axes_.offset(); }  ///< y [rad]
-  Vec3 angular_velocity() const {
-    return axes_.velocity();
-  }  ///< Of the coordinates [rad/s]; the device's own up to first order in y.
+  /// Of the device, world frame [rad/s]; where it jumps with the path's, the one before.
+  Vec3 angular_velocity() const;
   EnergyAccount energy() const { return axes_.energy(); }
 
   /// A blow: changes the angular velocity at once, as work of the push.
