@@ -36,6 +36,16 @@ TEST(JsonText, DepthAndLengthAreLimited) {
               HasSubstr("50000 bytes"));
 }
 
+TEST(JsonText, ARepeatedKeyIsNamedWithItsPlace) {
+  const auto refusal = [](const std::string& text) {
+    return message_of<UsageError>([&] { parse_json(text, "f"); });
+  };
+  EXPECT_THAT(refusal(R"({"a": 1, "b": {}, "a": 2})"), HasSubstr("f: /a: key \"a\" appears twice"));
+  EXPECT_THAT(refusal(R"([0, [], {"x": [1, {"y": 1}, {"z/w": [2], "y": {}, "z/w": 3}]}])"),
+              HasSubstr("f: /2/x/2/z~1w: key \"z/w\" appears twice"));
+  EXPECT_EQ(parse_json(R"([{"a": 1}, {"a": 2, "b": {"a": 3}}])", "f").size(), 2u);
+}
+
 TEST(JsonText, RefusesControlCharactersAndBrokenUtf8InTexts) {
   EXPECT_THROW(parse_json("\"\x1b[2J\"", "f"), UsageError);
   EXPECT_THROW(parse_json("\"\xFF\"", "f"), UsageError);
@@ -62,6 +72,11 @@ TEST_F(Override, SetsMakesAndAppends) {
   EXPECT_EQ(with("/list/-/c=3")["list"][2]["c"], 3);
   EXPECT_EQ(with("/fresh/0/mesh=sphere")["fresh"], Json::parse(R"([{"mesh": "sphere"}])"));
   EXPECT_EQ(with("/a~1b=1")["a/b"], 1);
+}
+
+TEST_F(Override, RefusesARepeatedKey) {
+  EXPECT_THAT(refusal(R"(/a={"x": 1, "x": 2})"),
+              AllOf(HasSubstr("--set /a="), HasSubstr("key \"x\" appears twice")));
 }
 
 TEST_F(Override, RefusesEveryIndexThatIsNotThere) {

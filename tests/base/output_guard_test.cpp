@@ -43,6 +43,13 @@ TEST_F(OutputGuard, AllowsFreeNamesEmptyFilesAndEarlierOutputs) {
                        "--out");
 }
 
+TEST_F(OutputGuard, AFolderIsNoFile) {
+  refuse_no_folder(folder_ / "none", "--out");
+  refuse_no_folder(folder_.path(), "--out");
+  EXPECT_THAT(message_of<UsageError>([&] { refuse_no_folder(folder_.write("notes", "mine"), "--out"); }),
+              HasSubstr("is no folder"));
+}
+
 TEST_F(OutputGuard, RefusesInputsByAnyName) {
   const fs::path input = folder_.write("input", "ours");
   EXPECT_THAT(refusal(input, {input}), HasSubstr("is also read"));

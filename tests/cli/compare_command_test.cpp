@@ -208,6 +208,9 @@ TEST_F(CompareCommand, ReportsReplaceNothingButTheirOwn) {
     for (int times = 0; times < 2; ++times)
       EXPECT_THAT(compare("a.h5 b.h5 " + option + " own" + option).code, AnyOf(0, 4)) << option << times;
   }
+  const Outcome twice = compare("a.h5 b.h5 --junit both --benchmark ./both");
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("two outputs"));
   EXPECT_EQ(std::filesystem::file_size(*scratch_ / "notes.txt"), 4U);
   EXPECT_THAT(compare("a.h5 b.h5").code, AnyOf(0, 4)) << "both are results still";
 }

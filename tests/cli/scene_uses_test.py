@@ -29,7 +29,7 @@ DEFORMING = {"deformation": BREATHES}
 
 KINDS = {
     "pair": {},
-    "several fixed": {"fixed": [SLAB, {"mesh": "plate", "diagonal_m": 0.1}]},
+    "several fixed": {"fixed": [{"mesh": "plate", "diagonal_m": 0.1}, SLAB]},
     "instances": {"fixed": [SLAB | STANDS]},
     "movers": {"movers": [SWAYS]},
     "moving deforms": {"moving": BALL | DEFORMING},

@@ -116,6 +116,16 @@ TEST_F(ExactDifferences, LossIsADifferenceAndAdditionIsNot) {
   EXPECT_THAT(additions(open(one, "a.h5"), open({}, "b.h5")), ElementsAre("method certified"));
 }
 
+TEST_F(ExactDifferences, WhatARunWasAskedNotToKeepIsNoLoss) {
+  SyntheticResult lists, none;
+  lists.lists = true;
+  EXPECT_FALSE(differences(lists, none).empty());
+  none.record = R"({"lmds": false})";
+  EXPECT_THAT(differences(lists, none), IsEmpty());
+  none.record = R"({"lmds": true, "counters": false})";
+  EXPECT_FALSE(differences(lists, none).empty());
+}
+
 TEST_F(ExactDifferences, ACounterThatWasAlwaysZeroIsNoLoss) {
   SyntheticResult base;
   base.idle_counter = "cache_hits";

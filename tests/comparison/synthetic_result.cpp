@@ -136,6 +136,7 @@ nlohmann::json experiment_of(const SyntheticResult& result) {
                             {"path", {{"file", "path.tum"}}},
                             {"force", {{"cutoff_m", result.cutoff}}},
                             {"driver", {{"repetitions", result.repetitions}}},
+                            {"record", nlohmann::json::parse(result.record)},
                             {"methods", nlohmann::json::array()}};
   for (const std::string& method : result.methods)
     experiment["methods"].push_back({{"name", method}, {"label", method}});

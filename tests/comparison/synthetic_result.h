@@ -38,8 +38,9 @@ struct SyntheticResult {
   double true_jumps = 3.0;           ///< In the summary
   std::string truth_of_every_frame;  ///< Label of a method, "" for none
   int repetitions = 3;
-  bool times = true;     ///< As /record/timings
-  bool counters = true;  ///< As /record/counters
+  bool times = true;          ///< As /record/timings
+  bool counters = true;       ///< As /record/counters
+  std::string record = "{}";  ///< JSON of /record in the experiment
 
   std::filesystem::path write(const std::filesystem::path& file) const;
 };

@@ -164,7 +164,8 @@ TEST(LoadExperiment, SchemaViolationsNamePointerValueAndExpectation) {
               AllOf(HasSubstr("/driver/kind: "), HasSubstr("lockstep"), HasSubstr("realtime")));
   EXPECT_THAT(message({"/name=has blank"}), HasSubstr("/name: "));
   EXPECT_THAT(message({"/methods/0/label=a/b"}), HasSubstr("/methods/0/label: "));
-  EXPECT_THAT(message({}, R"({"name": "x"})"), HasSubstr("Missing required property"));
+  EXPECT_THAT(message({}, R"({"name": "x"})"),
+              AllOf(HasSubstr("Missing required property"), HasSubstr("remedy: ")));
   EXPECT_THAT(message({}, "[1, 2]"), HasSubstr("/data/e.json: / (line 1): "));
 }
 
@@ -177,7 +178,7 @@ TEST(LoadExperiment, SyntaxErrorsNameLineAndColumn) {
 
 TEST(LoadExperiment, RepeatedKeysAreRefused) {
   EXPECT_THAT(message({}, R"({"name": "x", "title": {"a": 1}, "name": "y"})"),
-              HasSubstr("\"name\" appears twice"));
+              HasSubstr("e.json: /name (line 1): key \"name\" appears twice"));
 }
 
 TEST(LoadExperiment, ForceConstantsMustFitTogether) {

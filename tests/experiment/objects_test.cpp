@@ -89,6 +89,18 @@ TEST(Objects, AreReadBackAsTheyWereResolved) {
   EXPECT_EQ(again.held().motion.path_file, experiment.held().motion.path_file);
 }
 
+TEST(Objects, AnOverrideInsideOfAWayToMoveTakesThePlaceOfTheOther) {
+  const std::string text = "{" + objects({PEG, BALL, R"({"mesh":"b","motion":{"path":"q.tum"}})", HOLE}) +
+                           R"(,"force":{"cutoff_m":0.01}})";
+  const Experiment experiment =
+      parse_experiment(text, "/data/e.json", {"/objects/2/motion/sway/period_s=0.1"});
+  EXPECT_EQ(experiment.objects[2].motion.kind, MotionKind::SWAYS);
+  EXPECT_EQ(experiment.notes.size(), 1u);
+  EXPECT_THROW(parse_experiment(text, "/data/e.json",
+                                {"/objects/2/motion/sway/period_s=0.1", "/objects/2/motion/path=r.tum"}),
+               UsageError);
+}
+
 TEST(Objects, WhatDoesNotGoTogetherNamesThePlace) {
   EXPECT_THAT(message(objects({PEG, HOLE}) + R"(,"moving":{"mesh":"a"})"),
               HasSubstr("\"moving\" and \"objects\" exclude each other"));
@@ -106,6 +118,13 @@ TEST(Objects, WhatDoesNotGoTogetherNamesThePlace) {
               HasSubstr("/objects/0/pose"));
   EXPECT_THAT(message(objects({R"({"mesh":"b","instances":{"rule":"random","count":2}})", HOLE})),
               HasSubstr("/objects/0/instances"));
+  EXPECT_THAT(
+      message(objects({PEG, R"({"mesh":"b","instances":{"rule":"grid","counts":[2,2,1],"count":7}})"})),
+      AllOf(HasSubstr("/objects/1/instances"), HasSubstr("has no \"count\", only \"counts\"")));
+  EXPECT_THAT(message(objects({PEG, R"({"mesh":"b","instances":{"rule":"random","count":7,"file":"a"}})"})),
+              HasSubstr("has no \"file\", only \"count\""));
+  EXPECT_THAT(message(objects({PEG, R"({"mesh":"b","pose":{"translation_m":[1,0,0]},"instances":{}})"})),
+              AllOf(HasSubstr("Missing required property 'rule'"), HasSubstr("remedy: add it")));
   EXPECT_THAT(message(objects({PEG, BALL})), HasSubstr("every object moves"));
   EXPECT_THAT(message(objects({PEG, BALL, R"({"name":"ball","mesh":"b"})"})),
               AllOf(HasSubstr("/objects/2/name"), HasSubstr("two objects are called \"ball\"")));

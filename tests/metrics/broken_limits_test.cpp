@@ -50,6 +50,13 @@ TEST(Acceptance, EachLimitIsKeptAtItsBound) {
   EXPECT_THAT(broken(R"({"fcl_disagreements": 4})"), ElementsAre(HasSubstr("disagreements with FCL is 5")));
 }
 
+TEST(Acceptance, WhatWasNotMeasuredBreaksItsLimitAndSaysSo) {
+  RunSummary unmeasured = summary();
+  unmeasured.methods[1].recall = UNSET;
+  EXPECT_THAT(broken_limits(with_limits(R"({"recall": 0.05})").acceptance, unmeasured),
+              ElementsAre("improved: recall is not measured, the experiment wants at least 0.05"));
+}
+
 TEST(Acceptance, AWrongNearestDistanceBreaksWhateverIsLimited) {
   RunSummary wrong = summary();
   wrong.nearest_errors.push_back({"improved", 3, {}});

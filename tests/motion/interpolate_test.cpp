@@ -158,6 +158,11 @@ TEST(Resample, KeepsTheLastFrameInSpiteOfRounding) {
   EXPECT_EQ(frame_count(PathInterpolator(path), 1000.0), 301u);
   path[1].time = 0.3995;
   EXPECT_EQ(frame_count(PathInterpolator(path), 1000.0), 300u);
+  // Seconds since 1970, whose doubles are 2.4e-7 apart.
+  path[0].time = 1.7e9 + 0.1;
+  path[1].time = 1.7e9 + 0.1 + 0.3;
+  ASSERT_LT(path[1].time - path[0].time, 0.3 - 1e-8);
+  EXPECT_EQ(frame_count(PathInterpolator(path), 1000.0), 301u);
 }
 
 TEST(Resample, SignsAreContinuous) {

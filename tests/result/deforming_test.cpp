@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -212,6 +213,37 @@ TEST(Deforming, AnExportHasEachFramesShape) {
   EXPECT_NE(text("vtk/fixed_0/000010.vtu"), text("vtk/fixed_0/000020.vtu"));
 }
 
+TEST(Export, SeriesOfOneNameAreKeptApart) {
+  const ScratchDirectory scratch;
+  run_to(small_run({"/frames=20", "/record/lmds=true",
+                    R"(/methods=[{"name":"improved","label":"exact"},{"name":"certified"}])"}),
+         scratch / "r.h5");
+  const auto written = export_frames(ResultReader(scratch / "r.h5"), scratch / "vtk", 4);
+  EXPECT_EQ(std::set<std::filesystem::path>(written.begin(), written.end()).size(), written.size());
+  for (const char* name : {"lmds-exact.pvd", "lmds-of-exact.pvd", "lmds-certified.pvd"})
+    EXPECT_THAT(written, ::testing::Contains(scratch / "vtk" / name));
+}
+
+TEST(Export, CurvesUnderSeveralProfilesAreThoseOfTheirPoses) {
+  const ScratchDirectory scratch;
+  run_to(small_run({"/frames=40", "/record/polylines/stride_frames=10", R"(/methods=[{"name":"certified"}])",
+                    R"(/force=[{"name":"hard","cutoff_m":0.002},{"name":"soft","cutoff_m":0.004}])"}),
+         scratch / "r.h5");
+  const ResultReader result(scratch / "r.h5");
+  ASSERT_FALSE(result.has("/polylines"));
+  EXPECT_THAT(export_frames(result, scratch / "vtk", 4), ::testing::Contains(scratch / "vtk/polylines.pvd"));
+}
+
+TEST(Export, FarFromTheOriginMeshesKeepTheirShape) {
+  const ScratchDirectory scratch;
+  run_to(small_run({"/frames=4", R"(/methods=[{"name":"certified"}])",
+                    R"(/fixed=[{"mesh":"ball","diagonal_m":0.02,"pose":{"translation_m":[1e6,0,0]}}])"}),
+         scratch / "r.h5");
+  export_frames(ResultReader(scratch / "r.h5"), scratch / "vtk", 1);
+  const std::string text = testing::read_text(scratch / "vtk/fixed_0.vtu");
+  EXPECT_THAT(text, HasSubstr("1000000.00"));
+}
+
 /// Message of the usage error for a deformation of the moving mesh.
 std::string refusal(const std::string& deformation, const std::vector<Override>& overrides = {}) {
   return message_of<UsageError>([&] { small_run(overrides, deformation); });
@@ -225,6 +257,9 @@ TEST(Deforming, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(R"({"amplitude":1})"), HasSubstr("neither a generator nor vertex files"));
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"files":["a.off"]})"),
               HasSubstr("exclude each other"));
+  EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"interval_s":1})"),
+              HasSubstr("\"generator\" and \"interval_s\" exclude each other"));
+  EXPECT_THAT(refusal(R"({"amplitude":1,"folder":"a"})"), HasSubstr("exclude each other"));
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"direction":[0,0,0]})"),
               HasSubstr("/moving/deformation/direction"));
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"share":0})"),
@@ -301,6 +336,27 @@ TEST(FrameVertices, FilesFollowOneAnotherInTheOrderOfTheirNames) {
   EXPECT_NE(scene.vertices().sha256(), before);
 }
 
+TEST(FrameVertices, VerticesThatComeTogetherStayApart) {
+  Tetrahedra scene;
+  TriangleMesh shape = scene.mesh;
+  shape.vertices[3] = shape.vertices[2];
+  scene.scratch.write("2.off", to_off_text(shape));
+  EXPECT_EQ(Tetrahedra::tip(scene.vertices(), 1), shape.vertices[2]);
+  // Each triangle with corners of its own, as in STL, and a vertex that none has.
+  TriangleMesh corners;
+  corners.vertices = {{9, 9, 9}};
+  for (const auto& triangle : shape.triangles) {
+    for (const std::int32_t corner : triangle)
+      corners.vertices.push_back(shape.vertices[static_cast<std::size_t>(corner)]);
+    const auto count = static_cast<std::int32_t>(corners.vertices.size());
+    corners.triangles.push_back({count - 3, count - 2, count - 1});
+  }
+  scene.scratch.write("2.off", to_off_text(corners));
+  std::vector<Vec3> found;
+  scene.vertices().at(1, found);
+  EXPECT_EQ(found, shape.vertices);
+}
+
 TEST(FrameVertices, AGeneratorWorksInTheMeshsOwnFrame) {
   const TriangleMesh mesh = make_box(Vec3(1, 2, 3), 4);
   MeshDeformation choice;
@@ -336,6 +392,9 @@ TEST(FrameVertices, BadFilesAreNamed) {
   std::swap(other.triangles[1], other.triangles[2]);
   scene.scratch.write("5.off", to_off_text(other));
   EXPECT_THAT(refused(), AllOf(HasSubstr("5.off"), HasSubstr("triangle 1"), HasSubstr("topology")));
+  other.triangles.pop_back();
+  scene.scratch.write("5.off", to_off_text(other));
+  EXPECT_THAT(refused(), AllOf(HasSubstr("5.off"), HasSubstr("3 triangles for a mesh of 4")));
   scene.choice.folder = scene.scratch / "none";
   EXPECT_THAT(refused(), AllOf(HasSubstr("none"), HasSubstr("folder")));
   scene.choice.folder.clear();

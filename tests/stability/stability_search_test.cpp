@@ -213,6 +213,12 @@ TEST(StabilitySearch, PushIsCarriedOrThereIsNoCleanStiffness) {
   EXPECT_TRUE(std::isnan(sinking.critical_stiffness_n_per_m));
 }
 
+TEST(StabilitySearch, APushThatTheDeviceCannotRenderIsNeverCarried) {
+  const StabilityRow row = search({"/device=phantom-premium-1.5", "/loop/push_n=[0, 0, -20]"});
+  EXPECT_EQ(row.clean_until, "never");
+  EXPECT_NE(advice(row).find("/loop/push_n"), std::string::npos);
+}
+
 TEST(StabilitySearch, ClipAtTheProfilesMaximumIsScaledWithIt) {
   // 20 N exceed the file's F_max of 10 N, but not the 32 N at the boundary's stiffness.
   const StabilityRow row = search({"/loop/push_n=[0, 0, -20]", "/force/clip=maximum"});

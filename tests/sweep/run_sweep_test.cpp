@@ -17,6 +17,7 @@
 namespace lmdbench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::OpenResult;
@@ -56,6 +57,7 @@ TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
   EXPECT_LT(force[2], 1e-14) << "truth adds up the same LMDs, to rounding";
   EXPECT_LT(recall[1], recall[0]) << "a search every 40 frames leaves older sets than one every 5";
   EXPECT_GT(force[1], force[0]);
+  for (const double force : file.doubles("/points/rendered_force_median_n")) EXPECT_GT(force, 0.0);
   for (const double share : file.doubles("/points/processor_share")) EXPECT_GT(share, 0.0);
   EXPECT_THAT(file.doubles("/points/truth_checked_frames"), ElementsAre(4, 4, 4));
   EXPECT_THAT(file.doubles("/points/truth_wrong_frames"), ElementsAre(0, 0, 0));
@@ -133,6 +135,15 @@ TEST_F(RunSweep, KeepsAFailedPointAsAFailureAndGoesOn) {
   const OpenResult file(scratch_ / "out.h5");
   EXPECT_THAT(file.strings("/points/failure").at(3), HasSubstr("missing.off"));
   EXPECT_FALSE(file.has("/samples/3"));
+}
+
+TEST_F(RunSweep, APointWithoutAFrameThatCountsIsAFailure) {
+  std::string text = SWEEP;
+  text.replace(text.find("\"series\""), 8, "\"from_frame\": 399, \"series\"");
+  const Sweep sweep = load_sweep(write(text));
+  for (const PointResult& point : run(sweep).points)
+    EXPECT_THAT(point.failure,
+                AllOf(HasSubstr("/from_frame"), HasSubstr("of 400 the first 399 and the last")));
 }
 
 TEST_F(RunSweep, JudgesAStandInByTheMeshThatItStandsFor) {

@@ -40,13 +40,22 @@ void JsonDocument::override_with(const std::string& entry, const nlohmann::json&
     return override_text.substr(0, override_text.find('='));
   };
   apply_override(json_, entry);
-  for (const std::string& other : excluded_by(json_, schema, target_of(entry))) {
-    // Two overrides that exclude each other are refused below.
-    if (std::ranges::find(overrides_, other, target_of) != overrides_.end()) continue;
-    const nlohmann::json::json_pointer pointer(other);
-    notes_.push_back(fmt::format("{} takes the place of {}, which is {} in the file", target_of(entry), other,
-                                 json_[pointer].dump()));
-    json_[pointer.parent_pointer()].erase(pointer.back());
+  using Pointer = nlohmann::json::json_pointer;
+  const std::string target = target_of(entry);
+  // What encloses it may be new, too; not at the top, where scenes are told in two ways.
+  for (Pointer here(target); !here.empty(); here.pop_back()) {
+    if (here.parent_pointer().empty() && here.to_string() != target) break;
+    for (const std::string& other : excluded_by(json_, schema, here.to_string())) {
+      // Two overrides that exclude each other are refused below.
+      const auto is_asked = [&](const std::string& asked) {
+        return target_of(asked) == other || target_of(asked).starts_with(other + "/");
+      };
+      if (std::ranges::any_of(overrides_, is_asked)) continue;
+      const Pointer pointer(other);
+      notes_.push_back(fmt::format("{} takes the place of {}, which is {} in the file", target, other,
+                                   json_[pointer].dump()));
+      json_[pointer.parent_pointer()].erase(pointer.back());
+    }
   }
 }
 

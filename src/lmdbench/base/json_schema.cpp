@@ -230,8 +230,9 @@ void validate_against_schema(const Json& document, const Json& schema_json, cons
   std::string problem = error.description;
   if (!problem.empty() && problem.back() == '.') problem.pop_back();
   if (!place.empty()) problem += fmt::format(", found {}", document.at(pointer).dump());
+  const bool lacks_key = problem.starts_with("Missing required property");
   throw UsageError(file, place.empty() ? "/" : pointer.to_string(), problem,
-                   expectation(schema_at(place, schema_json, document)));
+                   lacks_key ? "add it" : expectation(schema_at(place, schema_json, document)));
 }
 
 void fill_defaults(Json& document, const Json& schema) {

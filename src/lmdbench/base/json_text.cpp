@@ -35,6 +35,7 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
 /// hostile text is not read to its end.
 class ParseWatch {
  public:
+  /// @param place  of the whole text, such as an option; empty: a key's own is told
   ParseWatch(std::string file, std::string place) : file_(std::move(file)), place_(std::move(place)) {}
 
   bool operator()(int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
@@ -47,19 +48,43 @@ class ParseWatch {
       if (length > limit_of(Limit::JSON_TEXT))
         refuse_above(file_, place_, Limit::JSON_TEXT, fmt::format("a text of {} bytes", length));
     }
-    if (event == Event::object_start) keys_of_open_objects_.emplace_back();
-    if (event == Event::object_end) keys_of_open_objects_.pop_back();
-    if (event == Event::key && !keys_of_open_objects_.back().insert(parsed.get<std::string>()).second &&
-        repeated_key_.empty())
-      repeated_key_ = parsed.get<std::string>();
+    if (event == Event::key) {
+      open_.back().key = parsed.get<std::string>();
+      if (!open_.back().keys.insert(open_.back().key).second && !repeated_key_) repeated_key_ = here();
+    }
+    if (event == Event::object_end || event == Event::array_end) open_.pop_back();
+    const bool ends = event == Event::value || event == Event::object_end || event == Event::array_end;
+    if (ends && !open_.empty()) ++open_.back().entries;
+    if (opens) open_.push_back({.is_array = event == Event::array_start});
     return true;
   }
-  const std::string& repeated_key() const { return repeated_key_; }
+
+  void refuse_repeated_key() const {
+    if (!repeated_key_) return;
+    throw UsageError(file_, place_.empty() ? repeated_key_->to_string() : place_,
+                     fmt::format("key \"{}\" appears twice in one object", repeated_key_->back()),
+                     "remove one of the two: only one could take effect");
+  }
 
  private:
+  /// An array or object whose end is not read yet.
+  struct Container {
+    bool is_array = false;
+    std::size_t entries = 0;  ///< That were read.
+    std::string key = {};     ///< The last one.
+    std::set<std::string> keys = {};
+  };
+
+  nlohmann::json::json_pointer here() const {
+    nlohmann::json::json_pointer pointer;
+    for (const Container& container : open_)
+      container.is_array ? pointer /= container.entries : pointer /= container.key;
+    return pointer;
+  }
+
   std::string file_, place_;
-  std::vector<std::set<std::string>> keys_of_open_objects_;
-  std::string repeated_key_;
+  std::vector<Container> open_;
+  std::optional<nlohmann::json::json_pointer> repeated_key_;
 };
 
 /// Nothing for a value that is no JSON.
@@ -68,6 +93,7 @@ std::optional<nlohmann::json> parse_value(const std::string& text, const std::st
   try {
     nlohmann::json value = nlohmann::json::parse(text, std::ref(watch), false);
     if (value.is_discarded()) return std::nullopt;
+    watch.refuse_repeated_key();
     return value;
   } catch (const nlohmann::json::out_of_range&) {
     return std::nullopt;  // a number such as 1e999: the schema will say what is wanted
@@ -117,9 +143,7 @@ nlohmann::json parse_json(const std::string& text, const std::string& file) {
     throw UsageError(file, "", fmt::format("a number is out of range: {}", error.what()),
                      "write numbers that a double holds");
   }
-  if (!watch.repeated_key().empty())
-    throw UsageError(file, "", fmt::format("key \"{}\" appears twice in one object", watch.repeated_key()),
-                     "remove one of the two: only one could take effect");
+  watch.refuse_repeated_key();
   return document;
 }
 

@@ -34,7 +34,6 @@ constexpr std::array<LimitInfo, LIMIT_COUNT> TABLE{{
     {Limit::IMPORT_BYTES, "import-bytes", 16 * GIB, 1024 * GIB, "bytes of memory to read a mesh or result"},
     {Limit::PATH_SECONDS, "path-seconds", 600, 864'000, "seconds of processor time to make or check a path"},
     {Limit::FRAMES, "frames", 10'000'000, 1'000'000'000, "haptic frames of a run or path"},
-    {Limit::BODIES, "bodies", 64, 10'000, "fixed meshes of an experiment"},
     {Limit::PLUGIN_SECONDS, "plugin-seconds", 10, 86'400,
      "seconds to wait for an answer of a plugin's process"},
     {Limit::PLUGIN_BYTES, "plugin-bytes", 4 * GIB, 1024 * GIB, "bytes of memory for a plugin's process"},

@@ -25,7 +25,6 @@ enum class Limit : std::uint8_t {
   IMPORT_BYTES,      ///< Memory of that process.
   PATH_SECONDS,      ///< Processor time to make or check a path.
   FRAMES,            ///< Haptic frames of a run or a path.
-  BODIES,            ///< Fixed meshes of an experiment.
   PLUGIN_SECONDS,    ///< Wall clock, for one answer of a plugin in a process of its own.
   PLUGIN_BYTES,      ///< Memory of that process.
   COUNT

@@ -19,6 +19,13 @@ void refuse_standard_output(const std::filesystem::path& file, const std::string
                    fmt::format("name a file with {}, or ./- for one of this name", option));
 }
 
+void refuse_no_folder(const std::filesystem::path& folder, const std::string& option) {
+  std::error_code error;
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
+    throw UsageError(folder.string(), option, "is no folder",
+                     "name a folder: it is made where there is none");
+}
+
 void refuse_unsafe_output(const std::filesystem::path& file, const OutputKind& kind,
                           const std::vector<std::filesystem::path>& inputs, const std::string& option) {
   const std::string remedy = fmt::format("choose another name with {}", option);

@@ -22,6 +22,9 @@ struct OutputKind {
 void refuse_standard_output(const std::filesystem::path& file, const std::string& what,
                             const std::string& option);
 
+/// @throws UsageError where something else than a folder stands in its place
+void refuse_no_folder(const std::filesystem::path& folder, const std::string& option);
+
 /// Makes sure that writing a file replaces nothing but an earlier output of the same kind: the name
 /// is free, an empty file or one of ours. Refused: `-`, symbolic links (dangling ones, too),
 /// directories, devices, FIFOs, foreign files, and any input under any name (hard links, too).

@@ -22,6 +22,8 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -213,6 +215,10 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   // No post-processing yet: it aborts the program where a reader left faces without corners
   // (truncated files), and its clean-up steps would drop or reorder triangles.
   const aiScene* scene = importer.ReadFile(name, 0);
+  // It tells a limit of memory as an error of the file.
+  if (scene == nullptr &&
+      std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
+    throw std::bad_alloc();
   if (scene == nullptr)
     throw InputError(file, "", importer.GetErrorString(), extension == "gltf" ? GLTF_REMEDY : FORMAT_REMEDY);
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);

@@ -94,12 +94,17 @@ FileContent read_mesh_file(const std::filesystem::path& file) {
   return read_input_file(file, {.what = "mesh file"});
 }
 
+TriangleMesh import_unwelded(const FileContent& content) {
+  TriangleMesh mesh = read_format(content);
+  if (mesh.triangles.empty())
+    throw InputError(content.file.string(), "", "holds no triangle",
+                     "point clouds and lines have no surface: name a mesh");
+  return mesh;
+}
+
 TriangleMesh import_mesh(const FileContent& content) {
   const std::string file = content.file.string();
-  const TriangleMesh mesh = read_format(content);
-  if (mesh.triangles.empty())
-    throw InputError(file, "", "holds no triangle", "point clouds and lines have no surface: name a mesh");
-  TriangleMesh result = welded(mesh);
+  TriangleMesh result = welded(import_unwelded(content));
   refuse_extreme_size(result, file);
   check_mesh_limits(result, file);
   return result;

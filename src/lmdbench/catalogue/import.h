@@ -31,6 +31,11 @@ TriangleMesh import_mesh(const std::filesystem::path& file);
 /// The same from a file's bytes; its extension names the format.
 TriangleMesh import_mesh(const FileContent& content);
 
+/// The file's vertices and triangles as they are, neither welded nor dropped, for whoever knows the
+/// triangles already. Sizes and limits are not checked.
+/// @throws InputError as `import_mesh`
+TriangleMesh import_unwelded(const FileContent& content);
+
 /// A mesh file's bytes and their hash.
 /// @throws InputError when it cannot be read or is too large
 FileContent read_mesh_file(const std::filesystem::path& file);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/mesh/surface.h>
@@ -24,8 +25,11 @@ namespace {
 std::size_t frame_at(const PreparedRun& prepared, std::optional<double> time) {
   const std::vector<double>& times = prepared.times;
   if (time) {
+    if (!(*time >= times.front() && *time <= times.back()))
+      throw UsageError("", "--time", fmt::format("{:g} s is no time of the path", *time),
+                       fmt::format("give one from {:g} to {:g}", times.front(), times.back()));
     const auto later = std::lower_bound(times.begin(), times.end(), *time);
-    return std::min(static_cast<std::size_t>(later - times.begin()), times.size() - 1);
+    return static_cast<std::size_t>(later - times.begin());
   }
   const std::vector<bool> in_contact =
       frames_in_contact(prepared.scene(), prepared.input.motion, prepared.input.poses);
@@ -45,7 +49,7 @@ void add_anatomy_command(CLI::App& app) {
   };
   auto* command = app.add_subcommand(
       "anatomy",
-      "Print, as JSON, what the parts of the paper's algorithms see at one pose (of instances and movers: "
+      "Print, as JSON, what the parts of the paper's algorithms see at one pose (of more than two meshes: "
       "the "
       "nearest pair, in the frame of its second mesh): levels of the hierarchy, a node "
       "pair for each verdict of G1 to G3, neighbourhoods of local tracking, the visibility pre-test");
@@ -66,7 +70,7 @@ void add_anatomy_command(CLI::App& app) {
     bodies.to_frame(static_cast<std::int64_t>(frame));
     Scene scene = bodies.scene();
     Pose pose = prepared.input.poses[frame];
-    if (scene.several_move() || scene.is_world()) {
+    if (!scene.is_pair()) {
       // The nearest pair, in the frame of its second mesh.
       const ObjectPair pair = NearestObjects(bodies.scene()).at(pose).objects;
       pose = relative_pose(scene.pose(pair.other, pose), scene.pose(pair.mover, pose));

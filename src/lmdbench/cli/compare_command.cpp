@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,12 @@ void refuse_unsafe_outputs(const CompareArguments& arguments) {
     refuse_unsafe_output(arguments.benchmark, benchmark, inputs, "--benchmark");
   if (!arguments.benchmark_base.empty())
     refuse_unsafe_output(arguments.benchmark_base, benchmark, inputs, "--benchmark-base");
+  std::set<std::filesystem::path> outputs;
+  for (const std::string& output : {arguments.junit, arguments.benchmark, arguments.benchmark_base})
+    if (!output.empty() &&
+        !outputs.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(output))).second)
+      throw UsageError(output, "", "is named for two outputs, of which one would be lost",
+                       "give each of --junit, --benchmark and --benchmark-base a file of its own");
 }
 
 int compare(CompareArguments& arguments) {

@@ -27,7 +27,7 @@ void add_export_command(CLI::App& app) {
       ->required();
   command
       ->add_option("--frames", options->frames,
-                   "at most so many frames, evenly spread; about 0.7 MB each for 16,000 triangles")
+                   "at most so many frames, evenly spread; about 0.8 MB each for 16,000 triangles")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->callback([options] {

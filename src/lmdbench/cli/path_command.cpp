@@ -139,12 +139,15 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
   }
   fmt::print("{}: {} poses, {:.6g} s from {:.6g} s; {} frames at {:g} Hz\n", file, facts.pose_count,
              facts.duration, facts.start_time, facts.frame_count, rate);
-  fmt::print("  a pose every {:.4g} s in the median, {:.4g} s at most; {} gaps are held, not interpolated\n",
-             facts.sample_interval, facts.longest_interval, facts.gaps);
+  if (facts.pose_count > 1)
+    fmt::print(
+        "  a pose every {:.4g} s in the median, {:.4g} s at most; {} gaps are held, not interpolated\n",
+        facts.sample_interval, facts.longest_interval, facts.gaps);
   fmt::print("  way {:.4g} m, turning {:.4g} deg\n", facts.length, facts.turning * DEGREES);
-  fmt::print("  at most {:.3g} m/s, {:.3g} m/s^2, {:.3g} deg/s, {:.3g} deg/s^2\n", facts.maximum_speed,
-             facts.maximum_acceleration, facts.maximum_angular_speed * DEGREES,
-             facts.maximum_angular_acceleration * DEGREES);
+  if (facts.pose_count > 1)
+    fmt::print("  at most {:.3g} m/s, {:.3g} m/s^2, {:.3g} deg/s, {:.3g} deg/s^2\n", facts.maximum_speed,
+               facts.maximum_acceleration, facts.maximum_angular_speed * DEGREES,
+               facts.maximum_angular_acceleration * DEGREES);
   if (!gaps) return;
   fmt::print("  smallest gap {:.4g} % of the diagonal, at {:.6g} s (floor {:.4g} %); {} frames intersect\n",
              100.0 * gaps->smallest, gaps->time_of_smallest, 100.0 * gaps->floor, gaps->intersecting_frames);

@@ -162,7 +162,8 @@ namespace {
 /// Values in full precision; long rows are cut.
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t LONGEST = 100;
-  const std::string text = value.is_null() ? "NaN" : value.dump();
+  const bool is_nan = value.is_null() || (value.is_number_float() && std::isnan(value.get<double>()));
+  const std::string text = is_nan ? "NaN" : value.dump();
   return text.size() <= LONGEST ? text : text.substr(0, LONGEST) + "...";
 }
 

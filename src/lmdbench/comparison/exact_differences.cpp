@@ -241,6 +241,19 @@ bool is_of_true_steps(const std::string& dataset) {
   return dataset.starts_with("summary/force_jump_") || dataset.starts_with("summary/true_");
 }
 
+/// Whether the run was asked not to keep a dataset of a method.
+bool left_out(const ResultReader& file, const std::string& dataset) {
+  constexpr const char* EXPERIMENT = "/provenance/experiment";
+  const char* kind = dataset.starts_with("lmds/")                             ? "lmds"
+                     : dataset.ends_with("torque")                            ? "torque"
+                     : is_counter_group(dataset.substr(0, dataset.find('/'))) ? "counters"
+                                                                              : nullptr;
+  if (kind == nullptr || !file.has(EXPERIMENT)) return false;
+  const nlohmann::json experiment = nlohmann::json::parse(file.texts(EXPERIMENT).front(), nullptr, false);
+  const nlohmann::json::json_pointer place = nlohmann::json::json_pointer("/record") / kind;
+  return experiment.contains(place) && experiment[place] == false;
+}
+
 void compare_group(const ResultReader& base, const ResultReader& candidate, const std::string& method,
                    const std::string& group, const ExactOptions& options,
                    std::vector<Difference>& differences) {
@@ -248,6 +261,7 @@ void compare_group(const ResultReader& base, const ResultReader& candidate, cons
   for (const std::string& dataset : deterministic_datasets(base, group)) {
     if (allowed(dataset, options) || is_time(candidate, group, dataset)) continue;
     if (!same_steps && is_of_true_steps(dataset)) continue;
+    if (!candidate.has(group + "/" + dataset) && left_out(candidate, dataset)) continue;
     if (auto difference = DatasetPair(base, candidate, method, group, dataset).compare(options))
       differences.push_back(std::move(*difference));
   }

@@ -58,7 +58,8 @@ std::vector<Column<FrameRecord>> frame_columns(const MethodDescription& method, 
   }
   columns.push_back(column<F>("minimum_distance", "m", "smallest LMD distance",
                               [](const F& f) { return f.minimum_distance; }));
-  columns.push_back(column<F>("effective_stiffness", "N/m", "slope of the force's length along the force",
+  columns.push_back(column<F>("effective_stiffness", "N/m",
+                              "slope of the force's length along the force, LMDs' directions held",
                               [](const F& f) { return f.effective_stiffness; }));
   columns.push_back(column<F>("contact_without_direction", "1",
                               "LMDs of triangles that intersect, which keep their last direction",

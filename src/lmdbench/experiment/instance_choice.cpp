@@ -22,9 +22,15 @@ constexpr std::int64_t MOST_INSTANCES = 1000000;
 InstanceChoice read_instance_choice(const nlohmann::json& entry, const std::string& place,
                                     const std::filesystem::path& file) {
   const std::string rule = entry["rule"].get<std::string>();
-  const auto needs = [&](const char* key, const char* example) {
+  /// The one of `file`, `counts` and `count` that says how many there are.
+  const auto needs = [&](const std::string& key, const char* example) {
     if (!entry.contains(key))
       throw UsageError(file.string(), place, fmt::format("the rule \"{}\" needs \"{}\"", rule, key), example);
+    for (const char* other : {"file", "counts", "count"})
+      if (key != other && entry.contains(other))
+        throw UsageError(file.string(), place,
+                         fmt::format("the rule \"{}\" has no \"{}\", only \"{}\"", rule, other, key),
+                         "leave it out, or choose another rule");
   };
   InstanceChoice choice;
   if (rule == "list") {

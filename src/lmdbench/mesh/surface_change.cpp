@@ -24,9 +24,10 @@ constexpr std::size_t FACES_A_TASK = 4096;
 
 void check_moved_vertices(const std::string& name, const TriangleMesh& mesh, std::span<const Vec3> vertices) {
   if (vertices.size() != mesh.vertices.size())
-    throw InputError(name, "vertices",
-                     fmt::format("{} vertices for a mesh of {}", vertices.size(), mesh.vertices.size()),
-                     "a deformation keeps the topology: give every vertex of the mesh, in its order");
+    throw InputError(
+        name, "vertices", fmt::format("{} vertices for a mesh of {}", vertices.size(), mesh.vertices.size()),
+        "a deformation keeps the topology: give every vertex of the mesh, in its order; vertices of its "
+        "file in one place are one, and those without triangles are none");
   if (vertices.empty()) return;
   // Both reductions are passes without a branch; only an error makes it look for the vertex.
   double sum = 0.0;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lmdbench {
 
@@ -17,9 +18,11 @@ std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSu
     };
     if (!judged.empty() && !named(method.label) && !named(method.entry)) continue;
     const auto check = [&](const char* what, auto value, auto bound, bool kept, const char* relation) {
-      if (!kept)
-        broken.push_back(fmt::format("{}: {} is {:.6g}, the experiment wants {} {:.6g}", method.label, what,
-                                     static_cast<double>(value), relation, static_cast<double>(bound)));
+      if (kept) return;
+      const auto number = static_cast<double>(value);
+      const std::string found = std::isnan(number) ? "not measured" : fmt::format("{:.6g}", number);
+      broken.push_back(fmt::format("{}: {} is {}, the experiment wants {} {:.6g}", method.label, what, found,
+                                   relation, static_cast<double>(bound)));
     };
     const auto wrong = std::ranges::find(summary.nearest_errors, method.label, &NearestError::label);
     if (acceptance.asked && wrong != summary.nearest_errors.end()) broken.push_back(wrong->text());

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/metrics/errors.h>
+#include <lmdbench/metrics/number_text.h>
 #include <lmdbench/metrics/summary.h>
 
 #include <fmt/format.h>
@@ -17,13 +18,13 @@ namespace lmdbench {
 namespace {
 
 /// A number with its unit, or "-" if unmeasured.
-std::string shown(double value, double scale, const char* unit, const char* format = "{:.3g}{}") {
-  return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value * scale, unit);
+std::string shown(double value, double scale, const char* unit) {
+  return number_text(value * scale) + (std::isnan(value) ? "" : unit);
 }
 
 /// "0.885 (0.913)": of same features, and in brackets with neighbouring features.
 std::string both(double same, double neighbours) {
-  return fmt::format("{} ({})", shown(same, 1, ""), shown(neighbours, 1, ""));
+  return fmt::format("{} ({})", share_text(same, 1.0), share_text(neighbours, 1.0));
 }
 
 std::string error_text(const MethodSummary& m, double frame_rate_hz) {
@@ -68,10 +69,10 @@ std::string rendered_text(const MethodSummary& m) {
 
 std::string method_text(const MethodSummary& m, const RunSummary& summary) {
   const bool closed_loop = summary.closed_loop;
-  std::string text = fmt::format("{} (hash {}){}\n", m.label, m.result_hash,
-                                 closed_loop ? fmt::format("; its device was in contact in {} frames",
-                                                           shown(m.frames_in_contact, 1, "", "{:.0f}{}"))
-                                             : "");
+  std::string text = fmt::format(
+      "{} (hash {}){}\n", m.label, m.result_hash,
+      closed_loop ? fmt::format("; its device was in contact in {} frames", shown(m.frames_in_contact, 1, ""))
+                  : "");
   text += fmt::format("  LMDs   {} in the median frame in contact, {} at most",
                       shown(m.lmd_count_median, 1, ""), shown(m.lmd_count_maximum, 1, ""));
   if (!std::isnan(m.candidates_median))
@@ -178,9 +179,9 @@ std::string summary_table(const RunSummary& summary) {
   std::vector<std::array<std::string, 6>> rows{
       {"method", "recall", "force error, RMS", "time a frame", "99 %", "frames above 1 ms"}};
   for (const MethodSummary& m : summary.methods)
-    rows.push_back({m.label, shown(m.recall, 100, " %"), shown(m.force_error_rms_n, 1, " N"),
-                    duration(m.frame_time_median_s), duration(m.frame_time_p99_s),
-                    shown(m.frames_late, 1, "")});
+    rows.push_back({m.label, std::isnan(m.recall) ? "-" : share_text(m.recall, 100.0) + " %",
+                    shown(m.force_error_rms_n, 1, " N"), duration(m.frame_time_median_s),
+                    duration(m.frame_time_p99_s), shown(m.frames_late, 1, "")});
   std::string text = fmt::format(
       "{}: {} frames, {} in contact; {}\n", summary.name, summary.frames, summary.frames_in_contact,
       summary.frames_probed > 0 ? fmt::format("{} compared with truth", summary.frames_probed)

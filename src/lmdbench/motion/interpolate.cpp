@@ -131,7 +131,10 @@ Pose PathInterpolator::at(double time) const {
 std::size_t frame_count(const PathInterpolator& interpolator, double rate) {
   if (!(rate > 0.0) || !std::isfinite(rate)) throw std::invalid_argument("the frame rate must be above 0");
   const double periods = (interpolator.end_time() - interpolator.start_time()) * rate;
-  return static_cast<std::size_t>(std::floor(periods + LAST_FRAME_TOLERANCE)) + 1;
+  // Times since 1970 are themselves rounded to 2e-7 s.
+  const double latest = std::max(std::abs(interpolator.start_time()), std::abs(interpolator.end_time()));
+  const double rounding = std::numeric_limits<double>::epsilon() * latest * rate;
+  return static_cast<std::size_t>(std::floor(periods + std::max(LAST_FRAME_TOLERANCE, rounding))) + 1;
 }
 
 void refuse_too_many_frames(const PathInterpolator& interpolator, double rate,

@@ -28,25 +28,42 @@ double in_frames(double seconds, double frame_rate_hz) {
 /// Extension of vertex lists, which have no triangles.
 constexpr const char* VERTEX_LIST = ".xyz";
 
+constexpr const char* KEEPS_TOPOLOGY =
+    "a deformation keeps the topology: write the mesh's own triangles, or the vertices alone as "
+    "x y z lines in a file that ends in .xyz";
+
+/// Where a mesh file with the triangles of the mesh at rest has each of its vertices. Vertices that
+/// come together in this shape stay apart, as they are not at rest.
+std::vector<Vec3> vertices_of_shape(const TriangleMesh& shape, const TriangleMesh& rest,
+                                    const std::string& name) {
+  if (shape.triangles.size() != rest.triangles.size())
+    throw InputError(
+        name, "triangles",
+        fmt::format("{} triangles for a mesh of {}", shape.triangles.size(), rest.triangles.size()),
+        KEEPS_TOPOLOGY);
+  std::vector<std::optional<Vec3>> found(rest.vertices.size());
+  for (std::size_t t = 0; t < rest.triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3& p = shape.vertices[static_cast<std::size_t>(shape.triangles[t][c])];
+      std::optional<Vec3>& place = found[static_cast<std::size_t>(rest.triangles[t][c])];
+      if (place && *place != p)
+        throw InputError(name, fmt::format("triangle {}", t), "is not that of the mesh that deforms",
+                         KEEPS_TOPOLOGY);
+      place = p;
+    }
+  std::vector<Vec3> vertices;
+  vertices.reserve(found.size());
+  for (const std::optional<Vec3>& place : found) vertices.push_back(place.value());
+  return vertices;
+}
+
 std::vector<Vec3> vertices_of_file(const FileContent& content, const TriangleMesh& rest) {
   const std::string name = content.file.string();
-  TriangleMesh mesh;
-  const bool is_list = content.file.extension() == VERTEX_LIST;
-  if (is_list)
-    mesh.vertices = parse_vertex_list(content.bytes, name);
-  else
-    mesh = import_mesh(content);
-  check_moved_vertices(name, rest, mesh.vertices);
-  if (!is_list && mesh.triangles != rest.triangles) {
-    const auto [own, other] = std::mismatch(mesh.triangles.begin(), mesh.triangles.end(),
-                                            rest.triangles.begin(), rest.triangles.end());
-    throw InputError(
-        name, fmt::format("triangle {}", own - mesh.triangles.begin()),
-        "is not that of the mesh that deforms",
-        "a deformation keeps the topology: write the mesh's own triangles, or the vertices alone as "
-        "x y z lines in a file that ends in .xyz");
-  }
-  return std::move(mesh.vertices);
+  std::vector<Vec3> vertices = content.file.extension() == VERTEX_LIST
+                                   ? parse_vertex_list(content.bytes, name)
+                                   : vertices_of_shape(import_unwelded(content), rest, name);
+  check_moved_vertices(name, rest, vertices);
+  return vertices;
 }
 
 }  // namespace

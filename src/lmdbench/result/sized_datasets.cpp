@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace lmdbench {
@@ -25,6 +26,17 @@ std::vector<T> of_size(std::vector<T> values, const ResultReader& result, const 
 
 std::vector<double> reals_of_size(const ResultReader& result, const std::string& dataset, std::size_t size) {
   return of_size(result.reals(dataset), result, dataset, size);
+}
+
+std::vector<double> finite_reals_of_size(const ResultReader& result, const std::string& dataset,
+                                         std::size_t size) {
+  std::vector<double> values = reals_of_size(result, dataset, size);
+  const auto bad = std::ranges::find_if_not(values, [](double value) { return std::isfinite(value); });
+  if (bad != values.end())
+    throw InputError(result.file().string(), dataset,
+                     fmt::format("value {} is {}, which no figure can show", bad - values.begin(), *bad),
+                     "run the experiment again");
+  return values;
 }
 
 std::vector<std::int64_t> integers_of_size(const ResultReader& result, const std::string& dataset,

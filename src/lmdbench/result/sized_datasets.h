@@ -15,6 +15,9 @@ namespace lmdbench {
 
 /// @param size values, not rows: 3 for one point
 std::vector<double> reals_of_size(const ResultReader& result, const std::string& dataset, std::size_t size);
+/// None of them NaN or infinite, as a file to look at needs them.
+std::vector<double> finite_reals_of_size(const ResultReader& result, const std::string& dataset,
+                                         std::size_t size);
 std::vector<std::int64_t> integers_of_size(const ResultReader& result, const std::string& dataset,
                                            std::size_t size);
 std::vector<std::string> texts_of_size(const ResultReader& result, const std::string& dataset,

@@ -70,7 +70,7 @@ void write_tick_times(ResultWriter& writer, const std::string& group, const Tick
 
 void write_role(ResultWriter& writer, const std::string& group, const RoleRecord& role, std::int64_t start) {
   write_tick_times(writer, group, role.times, start);
-  if (!role.age.empty())
+  if (role.age.size() == role.times.done.size())  // also where it had no turn at all
     write_values(writer,
                  {group + "/age", "s",
                   role.name == "servo" ? "time since the pose that the set in use was brought to"

@@ -237,7 +237,10 @@ class ResultReader::Implementation {
   }
 
   Hdf5Handle open_dataset(const std::string& path) const {
-    if (!has(path)) fail(path, "missing");
+    if (!has(path))
+      throw InputError(
+          name_.string(), path, "missing",
+          "make the file again with lmdbench run, which keeps what the experiment's /record says");
     Hdf5Handle dataset(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid()) fail(path, "is no readable dataset: " + last_hdf5_error());
     if (const std::string elsewhere = refers_elsewhere(dataset); !elsewhere.empty()) fail(path, elsewhere);

@@ -73,12 +73,8 @@ std::string vtu_text(const VtuGrid& grid) {
   std::vector<double> coordinates;
   coordinates.reserve(3 * grid.points.size());
   for (const Vec3& p : grid.points) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  // Meshes are for the eye: single precision halves the file.
-  if (grid.cell == VtuCell::TRIANGLE)
-    add_array<float>(text, "Float32", "points", 3,
-                     std::vector<float>(coordinates.begin(), coordinates.end()));
-  else
-    add_array<double>(text, "Float64", "points", 3, coordinates);
+  // Far from the origin single precision would be wider than a mesh.
+  add_array<double>(text, "Float64", "points", 3, coordinates);
   text += "</Points>\n<Cells>\n";
   add_array<std::int32_t>(text, "Int32", "connectivity", 1, grid.corners);
   add_array<std::int32_t>(text, "Int32", "offsets", 1, grid.ends);

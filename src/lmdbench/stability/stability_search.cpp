@@ -71,7 +71,9 @@ class Search {
     if (loop.turn) loop.turn->lever_m = given.lever_m;
     row.exact_n_per_m = critical_stiffness(loop);
     row.bound_n_per_m = sufficient_stiffness(loop);
-    if (!given.in_contact) {
+    if (!given.carried && given.in_contact) {
+      row.clean_until = "never";
+    } else if (!given.in_contact) {
       row.clean_until = given.saturated ? "saturated" : "no_contact";
     } else if (given.within_counts) {
       row.clean_until = "within_counts";
@@ -252,9 +254,9 @@ std::string advice(const StabilityRow& row) {
                            ? std::string("none of them was clean")
                            : fmt::format("clean was {:.6g} N/m at most", row.critical_stiffness_n_per_m));
   return who +
-         "no stiffness that carries the load is clean (remedy: more damping, a hand, fresher LMD sets, or "
-         "another resting pose: on "
-         "a convex contact a device without a hand slides off)";
+         "no stiffness that carries the load is clean (remedy: a smaller /loop/push_n, more damping, a hand, "
+         "fresher LMD sets, or another resting pose: on a convex contact a device without a hand slides "
+         "off)";
 }
 
 std::vector<StabilityRow> find_critical_stiffness(const Experiment& experiment, const RunProgress& progress,

@@ -156,9 +156,11 @@ double slope_along(const Vec3& force_W, const Pose& X_WM, const std::function<Fr
 }
 
 /// Moves the pose along the push until the contact carries it: whole steps, then TOMS 748.
+/// @param resists  set where the contact has some force against the push on the way
 /// @return nothing where no pose within a cutoff of the first one does
 std::optional<Pose> rest_under_push(const Pose& start, const Vec3& push_W,
-                                    const std::function<FrameRecord(const Pose&)>& held, double cutoff) {
+                                    const std::function<FrameRecord(const Pose&)>& held, double cutoff,
+                                    bool& resists) {
   const double load = push_W.norm();
   const Vec3 along_W = push_W / load;
   const auto pose_at = [&](double way) {
@@ -166,7 +168,11 @@ std::optional<Pose> rest_under_push(const Pose& start, const Vec3& push_W,
     X_WM.translation += way * along_W;
     return X_WM;
   };
-  const auto excess = [&](double way) { return -held(pose_at(way)).force.dot(along_W) - load; };
+  const auto excess = [&](double way) {
+    const double against = -held(pose_at(way)).force.dot(along_W);
+    resists = resists || against > 0.0;
+    return against - load;
+  };
   double there = 0.0;
   double excess_there = excess(there);
   const double step = (excess_there < 0.0 ? 1.0 : -1.0) * cutoff / REST_STEPS;
@@ -244,7 +250,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   StabilityTrial trial;
   if (!loop.push_n.isZero(0.0)) {
     const std::optional<Pose> pose =
-        rest_under_push(held.poses.front(), loop.push_n, at, method.profile.cutoff);
+        rest_under_push(held.poses.front(), loop.push_n, at, method.profile.cutoff, trial.in_contact);
     trial.carried = pose.has_value();
     if (!trial.carried) return trial;
     held.poses.front() = *pose;

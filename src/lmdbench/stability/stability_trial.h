@@ -50,9 +50,11 @@ inline constexpr std::int64_t MOST_SWING_FRAMES = 1'000'000;
 
 struct StabilityTrial {
   double stiffness_n_per_m = UNSET;  ///< K_eff of the resting contact.
-  bool in_contact = false;           ///< Has force and stiffness at rest; else unset below.
-  bool carried = true;               ///< Carries the push unsaturated; else unset below.
-  bool clipped = false;              ///< The device clips the resting force, cannot render it.
+  /// Has force and stiffness at rest, or some force against a push that it does not carry; else
+  /// unset below.
+  bool in_contact = false;
+  bool carried = true;   ///< Carries the push unsaturated; else unset below.
+  bool clipped = false;  ///< The device clips the resting force, cannot render it.
   /// Not in contact because it rests nearer than the saturation distance, or touches.
   bool saturated = false;
   /// Friction holds the device against any tap that the contact bears; nothing was simulated.

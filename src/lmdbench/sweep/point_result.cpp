@@ -14,7 +14,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double NANOSECOND = 1e-9;
-constexpr double MICRONEWTON = 1e-6;
 
 /// Whole multiples of a unit; null for NaN.
 Json rounded(const std::vector<double>& values, double unit) {
@@ -88,7 +87,7 @@ Json PointErrors::to_json() const {
           {"counts", contact},
           {"tracked", tracked},
           {"search_frames", search_frames},
-          {"force_un", rounded(force, MICRONEWTON)},
+          {"force_n", force},
           {"truth_checked_frames", truth_checked_frames},
           {"truth_wrong_frames", truth_wrong_frames}};
 }
@@ -100,7 +99,8 @@ PointErrors PointErrors::from_json(const Json& json) {
   for (const char frame : json.at("counts").get<std::string>()) errors.counts.push_back(frame == '1');
   errors.tracked = json.at("tracked").get<std::vector<std::int64_t>>();
   errors.search_frames = json.at("search_frames").get<std::vector<std::int64_t>>();
-  errors.force = in_units(json.at("force_un"), MICRONEWTON);
+  for (const Json& newtons : json.at("force_n"))
+    errors.force.push_back(newtons.is_null() ? UNSET : newtons.get<double>());
   errors.truth_checked_frames = json.at("truth_checked_frames").get<std::int64_t>();
   errors.truth_wrong_frames = json.at("truth_wrong_frames").get<std::int64_t>();
   return errors;

@@ -41,6 +41,13 @@ class SharedScene {
         in_contact_(frames_in_contact(run_.scene(), run_.input.motion, run_.input.poses)),
         hashes_(hashes) {
     hashes_.check(run_);
+    const std::int64_t frames = std::ssize(run_.input.poses);
+    if (sweep.from_frame + 1 >= frames)  // each counts with its next one
+      throw UsageError(sweep.file.string(), "/from_frame",
+                       fmt::format("no frame counts: of {} the first {} and the last are left out", frames,
+                                   sweep.from_frame),
+                       "give more frames, or less: /from_frame is the largest search_latency_frames of all "
+                       "series without it");
     for (std::int64_t frame = 0; frame < std::min<std::int64_t>(sweep.from_frame, std::ssize(in_contact_));
          ++frame)
       in_contact_[static_cast<std::size_t>(frame)] = false;
@@ -116,11 +123,13 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
       compare_with_truth(truth.sets.frames, record, choice.force_law, scene.run_of(truth).scene());
   MethodSummary summary;
   summarise_counts(summary, record, frames);
+  summarise_rendering(summary, record, frames);
   summarise_errors(summary, choice.force_law, truth.sets.frames, rows, frames);
   if (truth.other) erase_feature_numbers(summary);
   const StepNumbers steps = count_steps(record, choice.force_law, truth.sets.frames, rows, scene.run(),
                                         scene.run_of(truth), scene.in_contact());
-  set_jumps(summary, count_events(static_cast<std::int64_t>(steps.jumps), steps.seconds_in_contact));
+  set_jumps(summary, count_events(static_cast<std::int64_t>(steps.jumps),
+                                  summary.frames_in_contact / frames.frame_rate_hz));
   // Steps into contact count, too.
   if (const double known = summary.true_jump_frames; known > 0.0)
     set_true_jumps(summary,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/json_text.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/metrics/number_text.h>
 #include <lmdbench/sweep/write_sweep.h>
 
 #include <fmt/format.h>
@@ -53,10 +54,6 @@ void write_texts(ResultWriter& writer, const std::string& name, const std::strin
   std::vector<std::string> values;
   for (const SweepPoint& point : sweep.points) values.push_back(text(point));
   writer.write({"/points/" + name, "1", long_name}, values);
-}
-
-std::string number_text(double value, double scale = 1.0) {
-  return std::isnan(value) ? "-" : fmt::format("{:.3g}", value * scale);
 }
 
 }  // namespace
@@ -183,11 +180,11 @@ std::string sweep_text(const Sweep& sweep, const SweepResult& result) {
     const double percent_of_force = 100.0 / point.experiment.profiles.front().maximum_force_n;
     text += fmt::format(
         "{:<2}{:>9} {:>9} {:>9} {:>5} {:>8} {:>8} {:>7} {:>7}  {}\n", on_front(sweep, result, i) ? "*" : "",
-        number_text(values.number(COST), 1e3), number_text(values.number("frame_time_median_s"), 1e6),
-        number_text(values.number("frame_time_p99_s"), 1e6), number_text(values.number("frames_late")),
-        number_text(values.number(ERROR), percent_of_force),
-        number_text(values.number("force_error_p99_n"), percent_of_force),
-        number_text(values.number("recall"), 100.0), number_text(values.number("precision"), 100.0), name);
+        number_text(1e3 * values.number(COST)), number_text(1e6 * values.number("frame_time_median_s")),
+        number_text(1e6 * values.number("frame_time_p99_s")), number_text(values.number("frames_late")),
+        number_text(percent_of_force * values.number(ERROR)),
+        number_text(percent_of_force * values.number("force_error_p99_n")),
+        share_text(values.number("recall"), 100.0), share_text(values.number("precision"), 100.0), name);
   }
   std::int64_t wrong = 0;
   for (const PointResult& point : result.points) wrong = std::max(wrong, point.errors.truth_wrong_frames);

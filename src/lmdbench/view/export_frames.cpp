@@ -13,8 +13,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace lmdbench {
@@ -43,16 +45,25 @@ class Exporter {
   }
   const std::vector<fs::path>& written() const { return written_; }
 
+  /// The name of a series: "lmds-TRACK", or "lmds-of-TRACK" where a label has taken that.
+  std::string series_name(const std::string& what, const std::string& track) {
+    std::string name = what + (track.empty() ? "" : "-" + track);
+    for (std::string prefix = what + "-of-"; !series_.insert(name).second; prefix += "of-")
+      name = prefix + track;
+    return name;
+  }
+
  private:
   fs::path input_, folder_;
   std::vector<fs::path> written_;
+  std::set<std::string> series_;
 };
 
 /// A collection over time: one file a frame.
 class Series {
  public:
-  Series(Exporter& exporter, std::string name, const std::string& track)
-      : exporter_(exporter), name_(std::move(name) + (track.empty() ? "" : "-" + track)) {}
+  Series(Exporter& exporter, const std::string& what, const std::string& track)
+      : exporter_(exporter), name_(exporter.series_name(what, track)) {}
 
   void add(double time, std::size_t frame, const VtuGrid& grid) {
     const std::string file = fmt::format("{}/{:06}.vtu", name_, frame);
@@ -109,9 +120,9 @@ struct RecordedLmds {
       : offset(list_offsets(result, group + "/frame_offset", frames)),
         kind_moving(integers_of_size(result, group + "/feature_moving_kind", offset.back())),
         kind_fixed(integers_of_size(result, group + "/feature_fixed_kind", offset.back())),
-        distance(reals_of_size(result, group + "/distance", offset.back())),
-        point_moving(reals_of_size(result, group + "/point_moving", 3 * offset.back())),
-        point_fixed(reals_of_size(result, group + "/point_fixed", 3 * offset.back())) {}
+        distance(finite_reals_of_size(result, group + "/distance", offset.back())),
+        point_moving(finite_reals_of_size(result, group + "/point_moving", 3 * offset.back())),
+        point_fixed(finite_reals_of_size(result, group + "/point_fixed", 3 * offset.back())) {}
 
   VtuGrid grid(std::size_t frame) const {
     VtuGrid grid = empty_lmd_grid();
@@ -170,7 +181,7 @@ void export_track(Exporter& exporter, const ResultReader& result, const ResultSc
       forces(exporter, "forces", track.method);
   std::vector<std::vector<double>> force_of;
   for (const std::string& label : labels)
-    force_of.push_back(reals_of_size(result, "/methods/" + label + "/force", 3 * result_scene.frames));
+    force_of.push_back(finite_reals_of_size(result, "/methods/" + label + "/force", 3 * result_scene.frames));
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
     const auto& [time, pose] = track.poses[i];
     const std::size_t frame = track.frames[i];
@@ -208,8 +219,8 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
     if (result.has("/methods/" + label + "/movers/force")) labels.push_back(label);
   std::vector<std::vector<double>> force_of;
   for (const std::string& label : labels)
-    force_of.push_back(
-        reals_of_size(result, "/methods/" + label + "/movers/force", 3 * play.count() * result_scene.frames));
+    force_of.push_back(finite_reals_of_size(result, "/methods/" + label + "/movers/force",
+                                            3 * play.count() * result_scene.frames));
   Series movers(exporter, "movers", track.method), lmds(exporter, "lmds-movers", track.method),
       forces(exporter, "forces-movers", track.method);
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
@@ -253,13 +264,20 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
 }
 
 void export_polylines(Exporter& exporter, const ResultReader& result, const std::string& method) {
-  const std::string group = (method.empty() ? "" : "/methods/" + method) + std::string("/polylines");
-  if (!result.has(group + "/frame")) return;
+  std::vector<std::string> groups{"/polylines"};
+  // Under several profiles each method holds those of its own cutoff, on the same poses.
+  for (const std::string& label :
+       method.empty() ? result.groups("/methods") : std::vector<std::string>{method})
+    groups.push_back("/methods/" + label + "/polylines");
+  const auto found =
+      std::ranges::find_if(groups, [&](const std::string& group) { return result.has(group + "/frame"); });
+  if (found == groups.end()) return;
+  const std::string& group = *found;
   const std::vector<std::int64_t> frames = result.integers(group + "/frame");
   const std::vector<std::size_t> lines = list_offsets(result, group + "/frame_offset", frames.size());
   const std::vector<std::size_t> first_point = list_offsets(result, group + "/point_offset", lines.back());
   const std::vector<std::int64_t> closed = integers_of_size(result, group + "/closed", lines.back());
-  const std::vector<double> points = reals_of_size(result, group + "/point", 3 * first_point.back());
+  const std::vector<double> points = finite_reals_of_size(result, group + "/point", 3 * first_point.back());
   const std::vector<double> times = result.reals("/path/time");
   Series series(exporter, "polylines", method);
   for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -285,6 +303,7 @@ void export_polylines(Exporter& exporter, const ResultReader& result, const std:
 std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& folder,
                                     std::size_t most_frames) {
   refuse_sweep(result);
+  refuse_no_folder(folder, "--out");
   const ResultScene result_scene = scene_of_result(result);
   Exporter exporter(result.file(), folder);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);

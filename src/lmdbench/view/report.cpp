@@ -3,6 +3,7 @@
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/base/run_program.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/methods/query.h>
@@ -78,6 +79,7 @@ void write_scene_or_reason(const ResultReader& result, const fs::path& folder, c
 }  // namespace
 
 fs::path write_report(const ReportRequest& request, const Tell& progress, const Tell& warn) {
+  refuse_no_folder(request.out, "--out");
   const fs::path script = report_script();
   const std::string python = find_python();
   const TemporaryFolder scenes(fs::temp_directory_path(), "lmdbench-report-");
@@ -98,6 +100,8 @@ fs::path write_report(const ReportRequest& request, const Tell& progress, const 
 
   progress("drawing the figures and the page");
   const ProgramOutcome outcome = run_program(argv, fs::current_path(), PACKAGES);
+  if (outcome.exit_status == static_cast<int>(ExitCode::USAGE))
+    throw UsageError("", "", last_line(outcome.output), "");
   if (outcome.exit_status == static_cast<int>(ExitCode::INPUT_DATA))
     throw InputError("", "", last_line(outcome.output), "");
   if (outcome.exit_status != 0)
