@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/limits.h>
+#include <lmdbench/base/sanitizers.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/shapes.h>
@@ -90,6 +92,17 @@ std::string to_obj(const TriangleMesh& mesh) {
     text << "v " << vertex.x() << ' ' << vertex.y() << ' ' << vertex.z() << '\n';
   for (const auto& [a, b, c] : mesh.triangles) text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
   return text.str();
+}
+
+TEST(ImportTest, ALimitOfMemoryIsToldByItsName) {
+  if (IS_SANITIZED)
+    GTEST_SKIP() << "sanitizers reserve terabytes of addresses, which is what the limit is on";
+  const ScratchDirectory folder;
+  const auto file = folder.write("blob.stl", to_binary_stl(make_blob(1.0, 0.3, 6)));
+  set_limit("import-bytes=1000");
+  const std::string message = message_of<Error>([&] { import_mesh(file); });
+  set_limit("import-bytes=17179869184");
+  EXPECT_THAT(message, AllOf(HasSubstr("blob.stl"), HasSubstr("--limit import-bytes=")));
 }
 
 TEST(ImportTest, KeepsTheTrianglesOfEveryFormatInTheirOrder) {

@@ -125,7 +125,7 @@ class ExportTest(Scratch):
         self.assertEqual(mine.read_text(), "mine")
 
     def test_datasets_of_another_size_are_told(self):
-        """Edited results, whose hash is taken out: each dataset that is read, a row short, a row long, empty and with wild numbers."""
+        """Edited results, whose hash is taken out: each dataset that is read, a row short, a row long, empty, with wild numbers and with none."""
         result, _, _ = self.run_and_export("sizes", "/record/lmds=true")
         inside = self.path("inside.h5")
         self.call("run", "experiments/extreme/start-inside.json", "--out", inside, "--set", "/frames=20",
@@ -141,6 +141,7 @@ class ExportTest(Scratch):
         changes += [(name, lambda values: np.append([-5], values[1:])) for name in ("polylines/frame_offset", "polylines/point_offset")]
         changes += [("polylines/frame_offset", lambda values: np.concatenate([values[:1], values[1:2] + 10**9, values[2:]])),
                     ("polylines/frame", lambda values: -1 - values),
+                    *[(name, lambda values: values * np.nan) for name in ("methods/improved/force", "methods/improved/lmds/distance", "polylines/point")],
                     ("path/time path/position path/orientation", lambda values: values[:0])]
         for name, change in changes:
             with self.subTest(dataset=name):

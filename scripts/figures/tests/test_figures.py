@@ -109,6 +109,23 @@ class ReadingTest(ScriptsTest):
         occupied = self.write("occupied", "a file where a directory should be")
         self.assertIn("occupied", self.refused(lmdbench_results.EXIT_ENVIRONMENT, "figure7.py", self.hard, self.soft, "--out", occupied))
 
+    def test_figures_of_others_stay(self):
+        mine = pathlib.Path(self.path("mine"))
+        mine.mkdir()
+        for suffix in ("svg", "png"):
+            (mine / f"figure7.{suffix}").write_text("my thesis")
+            said = self.refused(2, "figure7.py", self.hard, "--out", mine)
+            self.assertIn(f"figure7.{suffix}: is no figure of lmdbench", said)
+            self.assertEqual((mine / f"figure7.{suffix}").read_text(), "my thesis")
+            (mine / f"figure7.{suffix}").unlink()
+        for _ in range(2):  # one of ours is replaced
+            self.assertEqual(call(sys.executable, FIGURES / "figure7.py", self.hard, "--out", mine).returncode, 0)
+
+    def test_a_sweep_is_told_from_a_run(self):
+        def become_sweep(h5):
+            h5.create_group("sweep")
+        self.assertIn("holds a sweep", self.refused(3, "figure7.py", self.edited("sweep.h5", become_sweep), "--out", self.path("none")))
+
     def test_an_unfinished_run_is_told_how_to_finish(self):
         file = self.edited("cut.h5.part", lambda h5: h5.attrs.__setitem__("format", "lmdbench-part"))
         with self.assertRaisesRegex(ResultError, "unfinished run.*--resume"):
