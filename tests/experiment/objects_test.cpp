@@ -101,6 +101,15 @@ TEST(Objects, AnOverrideInsideOfAWayToMoveTakesThePlaceOfTheOther) {
                UsageError);
 }
 
+TEST(Objects, AnOverrideDoesNotTurnOneFormOfASceneIntoTheOther) {
+  EXPECT_THAT(message_of<UsageError>([] {
+                parse_experiment(
+                    R"({"moving":{"mesh":"a"},"fixed":[{"mesh":"b"}],"force":{"cutoff_m":0.01}})",
+                    "/data/e.json", {"/objects/0/mesh=c"});
+              }),
+              HasSubstr("exclude each other"));
+}
+
 TEST(Objects, WhatDoesNotGoTogetherNamesThePlace) {
   EXPECT_THAT(message(objects({PEG, HOLE}) + R"(,"moving":{"mesh":"a"})"),
               HasSubstr("\"moving\" and \"objects\" exclude each other"));

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/sanitizers.h>
+#include <lmdbench/catalogue/off_file.h>
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/run/run.h>
 
 #include <gmock/gmock.h>
@@ -9,6 +11,7 @@
 #include <support/committed.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -138,6 +141,48 @@ TEST(SceneKinds, ABystanderChangesNoForce) {
     }
     EXPECT_GT(largest, 0.01) << law;
   }
+}
+
+TEST(SceneKinds, AForceIsTheSumOfThoseOfItsPairs) {
+  const std::string torus = in_braces({TORUS, TURNED});
+  const std::string ball =
+      R"({"mesh":"small-blob","diagonal_m":0.02,"pose":{"translation_m":[0.03,0.02,0.075]}})";
+  for (const std::string& law : AGGREGATIONS) {
+    const auto forces = [&](const std::string& fixed) {
+      return forces_of(
+          run_scene({BLOB}, {TORUS}, {}, {"/fixed=[" + fixed + "]", "/force/aggregation=" + law}));
+    };
+    const std::vector<Vec3> both = forces(torus + "," + ball), first = forces(torus), second = forces(ball);
+    double least_of_both = 0.0;
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      EXPECT_LT((both[i] - first[i] - second[i]).norm(), 1e-12) << law << ", frame " << i;
+      least_of_both = std::max(least_of_both, std::min(first[i].norm(), second[i].norm()));
+    }
+    EXPECT_GT(least_of_both, 1e-3) << law << ": never two at once";
+  }
+}
+
+TEST(SceneKinds, LayeredGoesByTheSmallerMeshOfAPair) {
+  const ScratchDirectory scratch;
+  TriangleMesh torus = make_torus(0.04, 0.015, 64, 32);
+  const auto forces = [&](const char* name) {
+    const std::string file = scratch.write(name, to_off_text(torus));
+    return forces_of(
+        run_scene({BLOB}, {"\"mesh\":\"" + file + "\"", TURNED}, {}, {"/force/aggregation=layered"}));
+  };
+  const std::vector<Vec3> alone = forces("torus.off");
+  // A far part makes the larger mesh still larger.
+  const auto first = static_cast<std::int32_t>(torus.vertices.size());
+  for (const Vec3& corner : {Vec3(10, 0, 0), Vec3(10, 0.01, 0), Vec3(10, 0, 0.01)})
+    torus.vertices.push_back(corner);
+  torus.triangles.push_back({first, first + 1, first + 2});
+  const std::vector<Vec3> longer = forces("longer.off");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_LT((alone[i] - longer[i]).norm(), 1e-9) << i;
+    largest = std::max(largest, alone[i].norm());
+  }
+  EXPECT_GT(largest, 0.01);
 }
 
 TEST(SceneKinds, WhatTwoMoversExertOnEachOtherIsOpposite) {
