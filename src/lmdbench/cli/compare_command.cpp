@@ -54,17 +54,17 @@ void refuse_unsafe_outputs(const CompareArguments& arguments) {
                          [](const auto& file) { return file_begins_with(file, JUNIT_BEGINS); }};
   const OutputKind benchmark{"Google Benchmark file",
                              [](const auto& file) { return file_begins_with(file, BENCHMARK_BEGINS); }};
-  if (!arguments.junit.empty()) refuse_unsafe_output(arguments.junit, junit, inputs, "--junit");
-  if (!arguments.benchmark.empty())
-    refuse_unsafe_output(arguments.benchmark, benchmark, inputs, "--benchmark");
-  if (!arguments.benchmark_base.empty())
-    refuse_unsafe_output(arguments.benchmark_base, benchmark, inputs, "--benchmark-base");
   std::set<std::filesystem::path> outputs;
-  for (const std::string& output : {arguments.junit, arguments.benchmark, arguments.benchmark_base})
-    if (!output.empty() &&
-        !outputs.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(output))).second)
+  const auto check = [&](const std::string& output, const OutputKind& kind, const char* option) {
+    if (output.empty()) return;
+    refuse_unsafe_output(output, kind, inputs, option);
+    if (!outputs.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(output))).second)
       throw UsageError(output, "", "is named for two outputs, of which one would be lost",
                        "give each of --junit, --benchmark and --benchmark-base a file of its own");
+  };
+  check(arguments.junit, junit, "--junit");
+  check(arguments.benchmark, benchmark, "--benchmark");
+  check(arguments.benchmark_base, benchmark, "--benchmark-base");
 }
 
 int compare(CompareArguments& arguments) {

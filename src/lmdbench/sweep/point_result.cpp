@@ -15,23 +15,23 @@ using Json = nlohmann::json;
 
 constexpr double NANOSECOND = 1e-9;
 
-/// Whole multiples of a unit; null for NaN.
-Json rounded(const std::vector<double>& values, double unit) {
+/// Seconds as whole nanoseconds; null for NaN.
+Json in_nanoseconds(const std::vector<double>& values) {
   Json result = Json::array();
   for (const double value : values) {
     if (std::isnan(value))
       result.push_back(nullptr);
     else
-      result.push_back(static_cast<std::int64_t>(std::llround(value / unit)));
+      result.push_back(static_cast<std::int64_t>(std::llround(value / NANOSECOND)));
   }
   return result;
 }
 
-std::vector<double> in_units(const Json& values, double unit) {
+std::vector<double> from_nanoseconds(const Json& values) {
   std::vector<double> result;
   result.reserve(values.size());
   for (const Json& value : values)
-    result.push_back(value.is_null() ? UNSET : static_cast<double>(value.get<std::int64_t>()) * unit);
+    result.push_back(value.is_null() ? UNSET : static_cast<double>(value.get<std::int64_t>()) * NANOSECOND);
   return result;
 }
 
@@ -62,20 +62,20 @@ const std::vector<PointNumber>& point_numbers() {
 Json PointRun::to_json() const {
   return {{"result_hash", result_hash},
           {"work_hash", work_hash},
-          {"local_update_ns", rounded(times.local_update, NANOSECOND)},
-          {"global_search_ns", rounded(times.global_search, NANOSECOND)},
-          {"first_reduction_ns", rounded(times.first_reduction, NANOSECOND)},
-          {"second_tracking_ns", rounded(times.second_tracking, NANOSECOND)}};
+          {"local_update_ns", in_nanoseconds(times.local_update)},
+          {"global_search_ns", in_nanoseconds(times.global_search)},
+          {"first_reduction_ns", in_nanoseconds(times.first_reduction)},
+          {"second_tracking_ns", in_nanoseconds(times.second_tracking)}};
 }
 
 PointRun PointRun::from_json(const Json& json) {
   PointRun run;
   run.result_hash = json.at("result_hash").get<std::string>();
   run.work_hash = json.at("work_hash").get<std::string>();
-  run.times.local_update = in_units(json.at("local_update_ns"), NANOSECOND);
-  run.times.global_search = in_units(json.at("global_search_ns"), NANOSECOND);
-  run.times.first_reduction = in_units(json.at("first_reduction_ns"), NANOSECOND);
-  run.times.second_tracking = in_units(json.at("second_tracking_ns"), NANOSECOND);
+  run.times.local_update = from_nanoseconds(json.at("local_update_ns"));
+  run.times.global_search = from_nanoseconds(json.at("global_search_ns"));
+  run.times.first_reduction = from_nanoseconds(json.at("first_reduction_ns"));
+  run.times.second_tracking = from_nanoseconds(json.at("second_tracking_ns"));
   return run;
 }
 
