@@ -80,7 +80,7 @@ std::string damage_of_values(const Hdf5Handle& dataset) {
   if (count > stored * LARGEST_DEFLATE_RATIO / std::max<std::size_t>(H5Tget_size(type.get()), 1))
     return fmt::format("its shape asks for more values than its {} bytes can hold", stored);
   const bool whole = can_be_read(type, count, [&](hid_t memory_type, void* values) {
-    return H5Dread(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+    return read_values(dataset, memory_type, values);
   });
   return whole ? "" : last_hdf5_error();
 }

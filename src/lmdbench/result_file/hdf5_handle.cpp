@@ -6,12 +6,29 @@ namespace lmdbench {
 
 namespace {
 
+constexpr std::size_t CONVERSION_BYTES = std::size_t{1} << 16;
+
+/// Invalid, which reading and writing refuse, where there is no memory for it.
+Hdf5Handle transfer() {
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_XFER), &H5Pclose);
+  if (H5Pset_buffer(properties.get(), CONVERSION_BYTES, nullptr, nullptr) < 0) properties.close();
+  return properties;
+}
+
 herr_t keep_description(unsigned /*position*/, const H5E_error2_t* error, void* text) {
   if (error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
   return 0;
 }
 
 }  // namespace
+
+herr_t read_values(const Hdf5Handle& dataset, hid_t memory_type, void* values) {
+  return H5Dread(dataset.get(), memory_type, H5S_ALL, H5S_ALL, transfer().get(), values);
+}
+
+herr_t write_values(const Hdf5Handle& dataset, hid_t memory_type, const void* values) {
+  return H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, transfer().get(), values);
+}
 
 void silence_hdf5() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

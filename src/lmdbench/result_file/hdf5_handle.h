@@ -44,6 +44,11 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
+/// H5Dread and H5Dwrite of all values of a dataset, without the megabyte that HDF5 clears for each
+/// dataset whose values it converts, text above all.
+herr_t read_values(const Hdf5Handle& dataset, hid_t memory_type, void* values);
+herr_t write_values(const Hdf5Handle& dataset, hid_t memory_type, const void* values);
+
 /// Stops HDF5 from printing its error stack. The setting belongs to the calling thread,
 /// so call it before every use.
 void silence_hdf5();

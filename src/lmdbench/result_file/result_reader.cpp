@@ -287,8 +287,7 @@ class ResultReader::Implementation {
   }
 
   void read(const std::string& path, const Hdf5Handle& dataset, hid_t memory_type, void* values) const {
-    if (H5Dread(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-      fail(path, "cannot be read: " + last_hdf5_error());
+    if (read_values(dataset, memory_type, values) < 0) fail(path, "cannot be read: " + last_hdf5_error());
   }
 
   std::filesystem::path name_;

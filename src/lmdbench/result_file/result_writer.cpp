@@ -107,7 +107,7 @@ class ResultWriter::Implementation {
     Hdf5Handle dataset = checked(H5Dcreate2(file_.get(), info.path.c_str(), file_type, space.get(),
                                             link_creation_.get(), creation.get(), H5P_DEFAULT),
                                  &H5Dclose, action);
-    if (count > 0) check(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), action);
+    if (count > 0) check(write_values(dataset, memory_type, values), action);
     describe(dataset.get(), info, action);
     if (!dataset.close()) fail(action);  // compresses the last chunks
   }
