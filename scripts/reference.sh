@@ -99,7 +99,7 @@ part() {
       ;;
     kernel) sweep kernel kernel ;;
     leave-out)
-      study leave-out --processes 3 experiments/{shapes,dropouts,bunny-hard}.json \
+      study leave-out --processes 5 experiments/{shapes,dropouts,bunny-hard}.json \
         experiments/extreme/{flush-cubes,start-inside,sliding-faces,rocking-box,deep}.json
       ;;
     ledger)
