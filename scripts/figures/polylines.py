@@ -55,7 +55,7 @@ def draw_mesh(axes, points, faces):
     axes.add_collection3d(Poly3DCollection(corners, facecolors=np.repeat(shade[:, None], 3, axis=1), rasterized=True))
     low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=1.25)
+    axes.set_box_aspect(high - low, zoom=1.1)
     axes.set_axis_off()
 
 
@@ -93,7 +93,7 @@ def main(argv):
 
     with plt.rc_context(style.STYLE):
         figure = plt.figure(figsize=(style.TWO_COLUMNS_IN, 3.3))
-        left = figure.add_axes([0.0, 0.0, 0.55, 0.95], projection="3d", computed_zorder=False)
+        left = figure.add_axes([0.0, 0.0, 0.55, 0.93], projection="3d", computed_zorder=False)
         left.view_init(elev=42, azim=35)
         draw_mesh(left, points, faces)
         chosen = [cutting[k] for k in np.unique(np.linspace(0, len(cutting) - 1, arguments.curves).round().astype(int))]
