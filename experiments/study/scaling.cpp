@@ -39,7 +39,7 @@ struct ScalingChoice {
   double cutoff = 0.005;
   std::size_t poses = 60;
   std::size_t repetitions = 5;
-  std::size_t passes = 3;  ///< Over all points of a study, so that no point has the machine's slow minute.
+  std::size_t passes = 3;  ///< Over all points: none alone has the machine's slow minute.
   std::uint64_t seed = 1;
   std::vector<std::string> only;
   bool large = false;
