@@ -166,10 +166,11 @@ void print_head(const Study& study, const Measurement& measurement) {
   fmt::print("\n");
 }
 
-void print_row(const Point& point, std::size_t moving_triangles, const Measurement& measurement) {
+void print_row(const Point& point, const Scene& scene, const Measurement& measurement) {
   std::vector<double> lmds(measurement.lmd_counts.begin(), measurement.lmd_counts.end());
   fmt::print("| {} on {} | {} | {:g} | {:g} | {:g} |", point.moving.label(), point.fixed.label(),
-             moving_triangles, 100.0 * point.gap, 100.0 * point.cutoff, median(lmds));
+             scene.moving->surface().mesh.triangles.size(), 100.0 * point.gap, 100.0 * point.cutoff,
+             median(lmds));
   for (const Series& series : measurement.series) {
     fmt::print(" {:.1f} / {:.1f}", 1e6 * median(series.seconds), 1e6 * quantile(series.seconds, P99));
     if (series.same.missed() > 0)
@@ -177,6 +178,7 @@ void print_row(const Point& point, std::size_t moving_triangles, const Measureme
     fmt::print("{} |", series.objection.empty() ? "" : " WRONG");
   }
   fmt::print("\n");
+  std::fflush(stdout);
 }
 
 /// Of every pose the least time of both, and the first objection.
@@ -209,25 +211,29 @@ void print_slopes(const nlohmann::json& points) {
 nlohmann::json measure_study(const Study& study, const ScalingChoice& choice, Bodies& bodies,
                              bool& kept_promises) {
   nlohmann::json result = {{"name", study.name}, {"about", study.about}, {"points", nlohmann::json::array()}};
-  std::vector<Pose> poses;
+  std::vector<Scene> scenes;
+  std::vector<std::vector<Pose>> poses;
+  for (const Point& point : study.points) {
+    Scene& scene = scenes.emplace_back();
+    scene.moving = bodies.get(point.moving);
+    scene.fixed = {bodies.get(point.fixed)};
+    scene.cutoff = point.cutoff * choice.diagonal;
+    poses.push_back(study.same_surface && !poses.empty()
+                        ? poses.front()
+                        : experiments::grazing_poses(*scene.moving, *scene.fixed[0],
+                                                     point.gap * choice.diagonal, choice.poses, choice.seed));
+  }
   std::vector<Measurement> measured;
   for (std::size_t pass = 0; pass < choice.passes; ++pass)
     for (std::size_t i = 0; i < study.points.size(); ++i) {
       const Point& point = study.points[i];
       fmt::print(stderr, "{}, pass {}: {} on {}\n", study.name, pass + 1, point.moving.label(),
                  point.fixed.label());
-      Scene scene;
-      scene.moving = bodies.get(point.moving);
-      scene.fixed = {bodies.get(point.fixed)};
-      scene.cutoff = point.cutoff * choice.diagonal;
-      if (poses.empty() || !study.same_surface)
-        poses = experiments::grazing_poses(*scene.moving, *scene.fixed[0], point.gap * choice.diagonal,
-                                           choice.poses, choice.seed);
       MeasureChoice measure_choice;
       measure_choice.repetitions = choice.repetitions;
       measure_choice.seed = choice.seed;
       measure_choice.gap = point.gap * choice.diagonal;
-      Measurement measurement = measure(scene, poses, measure_choice);
+      Measurement measurement = measure(scenes[i], poses[i], measure_choice);
       if (pass > 0)
         keep_least(measured[i], measurement);
       else
@@ -236,15 +242,13 @@ nlohmann::json measure_study(const Study& study, const ScalingChoice& choice, Bo
   print_head(study, measured.front());
   for (std::size_t i = 0; i < study.points.size(); ++i) {
     const Point& point = study.points[i];
+    const Scene& scene = scenes[i];
     const Measurement& measurement = measured[i];
-    const auto triangles = [&](const MeshChoice& mesh) {
-      return bodies.costs().at(mesh.label()).at("triangles").get<std::size_t>();
-    };
-    print_row(point, triangles(point.moving), measurement);
+    print_row(point, scene, measurement);
     nlohmann::json entry = {{"moving", point.moving.label()},
                             {"fixed", point.fixed.label()},
-                            {"moving_triangles", triangles(point.moving)},
-                            {"fixed_triangles", triangles(point.fixed)},
+                            {"moving_triangles", scene.moving->surface().mesh.triangles.size()},
+                            {"fixed_triangles", scene.fixed[0]->surface().mesh.triangles.size()},
                             {"gap", point.gap},
                             {"cutoff", point.cutoff},
                             {"lmd_counts", measurement.lmd_counts}};
