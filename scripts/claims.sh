@@ -27,6 +27,7 @@ make_paths() {
   "$PYTHON" - "$OUT" "$PATHS" "$APPROACHES" <<'PYTHON_END'
 import json
 import sys
+from pathlib import Path
 
 out, paths, approaches = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
 with open("paths/bunny-hard.json", encoding="utf-8") as file:
@@ -35,13 +36,14 @@ gaps = specification["gaps"]
 end = gaps[-1]["time_s"]
 specification["gaps"] = gaps + [{**gap, "time_s": round(gap["time_s"] + k * end, 3)} for k in range(1, approaches) for gap in gaps[1:]]
 for number in range(1, paths + 1):
-    with open(f"{out}/hard-{number:02d}.json", "w", encoding="utf-8") as file:
-        json.dump({**specification, "seed": 100 + number}, file)
+    name, text = Path(f"{out}/hard-{number:02d}.json"), json.dumps({**specification, "seed": 100 + number})
+    if not name.exists() or name.read_text(encoding="utf-8") != text:
+        name.write_text(text, encoding="utf-8")
 PYTHON_END
   local spec file
   for spec in "$OUT"/hard-[0-9][0-9].json; do
     file="${spec%.json}.tum"
-    [[ -s $file ]] || "$BUILD/lmdbench" path generate "$spec" --out "$file" >/dev/null
+    [[ -s $file && ! $spec -nt $file ]] || "$BUILD/lmdbench" path generate "$spec" --out "$file" >/dev/null
   done
 }
 
@@ -58,14 +60,19 @@ part() {
   case "$1" in
     claim-k1) step "Paths" make_paths && step "$1" sweep "$1" ;;
     roles) step "$1" "$BUILD/lmdbench-study" roles --json "$OUT/roles.json" >"$OUT/roles.txt" ;;
-    bunny-cut) step "$1" run bunny-cut bunny-cut ;;
+    bunny-cut*)
+      # What a search finds at a cutoff of a nanometre are pairs of triangles that cross.
+      step "$1" run bunny-cut "$1" --set "/name=\"$1\"" --set '/methods=[{"name": "improved", "force_law": "exponential"}]' \
+        --set '/force={"cutoff_m": 1e-9, "maximum_force_n": 3}' --set /driver/search_every_frames=1 --set /driver/search_latency_frames=0 \
+        --set /probes/truth/stride_frames=0 --set "/moving/mesh=\"$([[ $1 == bunny-cut ]] && echo wedge || echo ball)\""
+      ;;
     direction-memory)
       step "$1" run recorded-hard direction-memory --set '/name="direction-memory"' --set /record/lmds=true --set /driver/repetitions=2 \
         --set /probes/truth/stride_frames=0 --set /probes/fcl/stride_frames=0
       ;;
     verdicts)
       local more other
-      mapfile -t more < <(existing "$OUT"/{readings,bunny-cut,direction-memory}.h5 "$OUT/roles.json")
+      mapfile -t more < <(existing "$OUT"/{readings,bunny-cut,bunny-cut-ball,direction-memory}.h5 "$OUT/roles.json")
       mapfile -t other < <(existing "$OTHER"/claim-*.h5 "$OTHER/roles.json")
       ((${#other[@]} == 0)) || other=(--other "${other[@]}")
       step "Verdicts" "$PYTHON" scripts/figures/claim_regions.py "$OUT"/claim-*.h5 "${more[@]}" "${other[@]}" --out "$OUT" >&2
@@ -76,6 +83,6 @@ part() {
 
 parts=("$@")
 if ((${#parts[@]} == 0)); then
-  parts=(claim-k1 claim-k3 claim-k5 claim-k7 claim-k10 claim-k10-unequal readings roles bunny-cut direction-memory verdicts)
+  parts=(claim-k1 claim-k3 claim-k5 claim-k7 claim-k10 claim-k10-unequal readings roles bunny-cut bunny-cut-ball direction-memory verdicts)
 fi
 for name in "${parts[@]}"; do part "$name"; done

@@ -23,7 +23,8 @@ def markdown(claims, results):
         "What the paper says, what that is in numbers, and what two runs show: one setting of the free choices that the paper leaves. "
         "The verdict is over all settings that were measured (claim-regions.md), and has its reason beside it. The paper gives few "
         "numbers: the thresholds are ours and stand in the third column. Times decide where every repetition of at least two says the same.", "",
-        f"Machine: {results[0].machine().get('processor', 'unknown')}. Results: {', '.join(f'`{os.path.basename(result.file)}`' for result in results)}.", "",
+        f"Machine: {', '.join(dict.fromkeys(result.machine().get('processor', 'unknown') for result in results))}. "
+        f"Results: {', '.join(f'`{os.path.basename(result.file)}`' for result in results)}.", "",
         *table(["", "the paper's words", "our measure", "our numbers", "in this setting", "verdict over all settings"], cells)])
 
 

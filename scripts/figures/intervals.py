@@ -87,7 +87,11 @@ class Rate:
         self.value = self.count / self.seconds if self.seconds > 0 and self.count >= LEAST_EVENTS else math.nan
         low, high = (limit / self.seconds for limit in poisson_interval(self.count)) if self.seconds > 0 else (math.nan, math.nan)
         if len(counts) >= 5:
-            spread = bootstrap(list(zip(counts, seconds)), lambda rows: sum(c for c, _ in rows) / sum(s for _, s in rows))
+            def of_all(rows):
+                time = sum(s for _, s in rows)
+                return sum(c for c, _ in rows) / time if time > 0 else math.nan
+
+            spread = bootstrap(list(zip(counts, seconds)), of_all)
             low, high = min(low, spread[0]), max(high, spread[1])
         self.low, self.high = low, high
 

@@ -8,8 +8,8 @@ import math
 import numpy as np
 
 from intervals import bootstrap
-from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, joined, mean_edges, mesh, of_repetitions, partner, span, triangles,
-                          usable)
+from region_rules import (FAILS, HOLDS, OPEN, all_of, blocks, cutoff_share, decide, groups, joined, mean_edges, mesh, of_repetitions, partner, schedule, span,
+                          triangles, usable)
 from tables import interval, shown
 
 
@@ -27,7 +27,7 @@ def k5(found, sweep):
         candidates, kept, largest = (point.number(name) for name in ("candidates", "kept", "reduction_ratio_maximum"))
         choice = (options["visibility"], options["reduction"], options.get("leaf_cones", "one-ring"))
         counts.setdefault((mesh(point), cutoff_share(point)), {})[choice] = candidates, kept
-        cell = HOLDS if 10 <= largest <= 40 else FAILS
+        cell = decide(largest, largest, at_least=10, at_most=40)
         found.add({"meshes": mesh(point), **size_columns(point), **dict(zip(("visibility", "reduction", "leaf cones"), choice)),
                    "candidates": shown(candidates), "kept": shown(kept), "ratio over all": shown(candidates / kept if kept else math.nan),
                    "largest": shown(largest), "recall [%]": shown(100 * point.number("recall")), "K5": cell},
@@ -213,10 +213,10 @@ def against_the_others(runs, share):
 
 
 def k9(found, *sweeps):
-    for point in (point for sweep in sweeps for point in usable(sweep.of(series="improved"))):
+    for point in (point for series in ("improved", "original") for sweep in sweeps for point in usable(sweep.of(series=series))):
         experiment = point.experiment
         smallest = min(triangles(body["mesh"]) for body in (experiment["moving"], *experiment["fixed"]))
-        if point.method != "improved" or not math.isfinite(point.number("local_update_p99_s")) or not smallest > 10_000:
+        if not math.isfinite(point.number("local_update_p99_s")) or not smallest > 10_000:
             continue
         times, _ = updates(point)
         counts = point.sweep.samples(point, "counts").astype(bool)
@@ -225,9 +225,9 @@ def k9(found, *sweeps):
         limits = (min(least, value), max(most, value))
         cell = decide(*limits, at_most=1e-3)
         share = f"{100 * cutoff_share(point):g} %" if math.isfinite(cutoff_share(point)) else "own cutoff"
-        found.add({"scene": point.scene, "moving mesh": mesh(point), "smallest mesh [triangles]": f"{smallest:.0f}", "cutoff": share,
+        found.add({"method": point.series, "scene": point.scene, "moving mesh": mesh(point), "smallest mesh [triangles]": f"{smallest:.0f}", "cutoff": share,
                    "search every [frames]": point.period, "local update, median [us]": shown(1e6 * point.number("local_update_median_s")),
                    "99th percentile [us]": interval(1e6 * value, [1e6 * x for x in limits]),
-                   "largest [us]": shown(1e6 * point.number("local_update_maximum_s")), "1 kHz, times": shown(1e-3 / value),
+                   "largest [us]": shown(1e6 * point.number("local_update_maximum_s")), "above 1 ms [%]": shown(100 * np.mean(times[:, counts] > 1e-3)),
                    "recall [%]": shown(100 * point.number("recall")), "force error, RMS [% of F_max]": shown(100 * point.force_error), "K9": cell},
-                  f"{point.scene}, {mesh(point)}, {'' if share == 'own cutoff' else 'cutoff '}{share} | a search every {point.period} frames", cell)
+                  f"{point.series} | {point.scene}, {mesh(point)}, {'' if share == 'own cutoff' else 'cutoff '}{share}, {schedule(point.period)}", cell)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Regions of the claims on force and LMD counts: K1 to K4; their rules stand in claim_rules.py."""
 
+import math
 
 import numpy as np
 
@@ -92,7 +93,8 @@ def split(rows):
 
 
 def changes(points):
-    return (sum(p.number("births") + p.number("deaths") for p in points) / sum(p.number("seconds_in_contact") for p in points))
+    seconds = sum(p.number("seconds_in_contact") for p in points)
+    return sum(p.number("births") + p.number("deaths") for p in points) / seconds if seconds > 0 else math.nan
 
 
 def k4(found, sweep):

@@ -28,8 +28,8 @@ class Found:
 
     def add(self, row, setting=None, cell=""):
         self.rows.append(row)
-        if setting is not None:
-            self.cells[setting] = cell
+        if setting is not None:  # that two sweeps measured holds where it does in both
+            self.cells[setting] = all_of(cell, self.cells.get(setting, cell))
 
     def table(self):
         return table(list(self.rows[0]), [row.values() for row in self.rows]) if self.rows else []

@@ -266,6 +266,20 @@ class Verdicts(SweepScratch):
         self.assertEqual(len(judged("K5", self.sweep(rows, "claim-k10"))[1]), 1, "two points of one setting")
         self.assertEqual(list(judged("K5", self.sweep(rows[:1], "claim-k5"))[1].values()), [claim_regions.HOLDS])
 
+    def test_what_failed_and_what_was_not_measured_decides_nothing(self):
+        rows = [row("improved", reduction_ratio_maximum=20.0), row("improved-own", failure="out of memory")]
+        text, cells = judged("K5", self.sweep(rows, "claim-k5"))
+        self.assertEqual(list(cells.values()), [claim_regions.HOLDS])
+        self.assertIn("hard, improved-own: out of memory", "\n".join(text))
+        self.assertEqual(list(judged("K5", self.sweep([row("improved", candidates=0.0)], "claim-k5"))[1].values()), [claim_regions.OPEN])
+
+    def test_a_setting_that_two_sweeps_measured_holds_where_it_does_in_both(self):
+        for cells in ((claim_regions.HOLDS, claim_regions.FAILS), (claim_regions.FAILS, claim_regions.HOLDS)):
+            found = region_rules.Found()
+            for cell in cells:
+                found.add({"a": 1}, "one", cell)
+            self.assertEqual(found.cells, {"one": claim_regions.FAILS})
+
     def test_k2_and_k4_judge_means_over_paths(self):
         def path(series, number, **numbers):
             entry = row(series, 20, **numbers)
@@ -329,6 +343,33 @@ class Verdicts(SweepScratch):
         text = "\n".join(region_cost.why_k5(counts))
         self.assertIn("leaf cones edge-neighbours makes 0.3 times the candidates and keeps 1 times the LMDs", text)
         self.assertIn("visibility off makes 5 times the candidates and keeps 0.5 times the LMDs", text)
+
+    def test_k12_asks_for_every_pair_that_crosses(self):
+        def result(candidates):
+            file = h5py.File(self.path(f"cut-{candidates}.h5"), "w")
+            for name, values in {"frame": [0, 5], "frame_offset": [0, 0, 1], "trace_time": [1e-6] * 2, "point_offset": [0, 3], "closed": [1], "length": [0.1],
+                                 "point": np.zeros((3, 3))}.items():
+                file[f"polylines/{name}"] = np.array(values)
+            file["path/position"], file["path/orientation"] = np.zeros((6, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (6, 1))
+            search = {"global_frame": np.arange(6.0), "candidates": np.array([0, 0, 0, 0, 0, candidates], dtype=float)}
+            return unittest.mock.Mock(points=(), h5=file, read=lambda name: file[name][:], method=lambda _: unittest.mock.Mock(read=search.get))
+
+        with unittest.mock.patch.object(region_sets, "body", return_value=("cube", np.zeros((1, 3, 3)), 1.0)):
+            for candidates, cell in ((3, claim_regions.HOLDS), (2, claim_regions.FAILS)):
+                text, cells = judged("K12", result(candidates))
+                self.assertEqual(cells, {"cube into cube": cell})
+                self.assertIn(f"| 1 | 3 | {candidates} |", "\n".join(text))
+
+    def test_k9_judges_each_method(self):
+        rows = [row(series, scene="bunny-soft", local_update_p99_s=1e-3, local_update_median_s=1e-6, local_update_maximum_s=2e-3) for series in ("original", "improved")]
+        for entry in rows:
+            experiment = json.loads(entry["experiment"])
+            entry["experiment"] = json.dumps({**experiment, "fixed": [{"mesh": "bunny-16k"}]})
+        found = self.sweep(rows, "claim-k7")
+        times = {"original": np.full((3, 100), 1.5e-3), "improved": np.full((3, 100), 1e-5)}
+        found.samples = lambda point, name: times[point.series] if name == "local_update_time" else np.ones(100)
+        cells = judged("K9", found)[1]
+        self.assertEqual({name.split(" | ")[0]: cell for name, cell in cells.items()}, {"improved": claim_regions.HOLDS, "original": claim_regions.FAILS})
 
     def test_distance_to_triangles_and_back_rotation(self):
         corners = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [[9.0, 9, 9], [9, 9, 9], [9, 9, 9]]])
