@@ -38,12 +38,14 @@ class PreparedMesh {
   explicit PreparedMesh(const std::filesystem::path& file, const std::string& planar_tolerance = "auto");
 
   /// Takes a mesh from memory: indices of features count its vertices and triangles. Corners that
-  /// are to be one vertex must be one. Planes are put back as above. A triangle without area that
-  /// closes a T junction is flipped with the one beside it, and both keep their numbers: `mesh()`
-  /// has their corners, `findings()` how many there were.
+  /// are to be one vertex must be one. Vertices without triangles count for nothing: in `mesh()`
+  /// they stand at a corner of a triangle. Planes are put back as above. A triangle without area
+  /// that closes a T junction is flipped with the one beside it, and both keep their numbers:
+  /// `mesh()` has their corners, `findings()` how many there were.
   /// @param name of the mesh, for messages
   /// @throws InputError naming the vertex or triangle: no triangle, an index out of range, a
-  ///         coordinate that is not finite or too large, more triangles than the limits allow
+  ///         coordinate that is not finite or too large, a planar tolerance that is no length, more
+  ///         triangles than the limits allow
   explicit PreparedMesh(TriangleMesh mesh, const std::string& planar_tolerance = "auto",
                         const std::string& name = "mesh");
 
@@ -64,7 +66,8 @@ class PreparedMesh {
 };
 
 /// Searches the LMDs of a pair of meshes with one method. For one thread at a time, since it holds
-/// the method's scratch memory; further searches share the meshes' memory.
+/// the method's scratch memory; further searches share the meshes' memory. One that was moved from,
+/// as a moved-from `PreparedMesh`, may only be destroyed or given another value.
 class LmdSearch {
  public:
   /// @param moving  frame M, placed by the pose

@@ -167,7 +167,8 @@ class Arrays(Files):
     def test_meshes_keep_the_rows_of_the_arrays(self):
         vertices = np.vstack([[9.0, 9.0, 9.0], CORNERS])
         mesh = lmdbench.Mesh(vertices, SIDES.astype(np.uint16) + 1)
-        np.testing.assert_array_equal(mesh.vertices, vertices)
+        used = np.vstack([CORNERS[SIDES[0, 0]], CORNERS])  # a vertex without triangles counts for nothing
+        np.testing.assert_array_equal(mesh.vertices, used)
         np.testing.assert_array_equal(mesh.triangles, SIDES + 1)
         self.assertFalse(mesh.vertices.flags.writeable)
         self.assertEqual(mesh.edges.shape, (18, 2))
@@ -182,7 +183,7 @@ class Arrays(Files):
         self.assertIn("1 flat triangle", " ".join(junction.findings))
         view = mesh.vertices
         del mesh
-        np.testing.assert_array_equal(view, vertices)
+        np.testing.assert_array_equal(view, used)
         turned = matrices(*poses_near(1))[0]
         turned[:3, 3] = np.array([0.4, 0.6, 1.02]) - turned[:3, :3] @ CORNERS[np.argmin(CORNERS @ turned[2, :3])]
         lmd = lmdbench.query((vertices, SIDES + 1), (CORNERS, SIDES), turned, 0.05)[0][0]
@@ -199,7 +200,7 @@ class Arrays(Files):
         box = lmdbench.Mesh(CORNERS, SIDES)
         mirrored = np.diag([1.0, 1.0, -1.0, 1.0])
         cases = ((lambda: lmdbench.Mesh(CORNERS[:, :2], SIDES), lmdbench.UsageError, r"vertices: has shape \(8, 2\)"),
-                 (lambda: lmdbench.Mesh(CORNERS, SIDES.astype(float)), lmdbench.UsageError, "whole numbers"),
+                 (lambda: lmdbench.Mesh(CORNERS, SIDES.astype(float), name="peg"), lmdbench.UsageError, "peg: triangles: .*whole numbers"),
                  (lambda: lmdbench.Mesh(CORNERS, SIDES + 1), lmdbench.InputError, "triangle 2: names vertex 8 of 8"),
                  (lambda: lmdbench.Mesh(CORNERS, SIDES - 1), lmdbench.InputError, "names vertex -1"),
                  (lambda: lmdbench.Mesh(CORNERS, SIDES.astype(np.int64) + 2**32), lmdbench.InputError, "names vertex 4294967296"),
@@ -212,6 +213,7 @@ class Arrays(Files):
                  (lambda: lmdbench.query(box, box, np.eye(4) * 2, 0.1), lmdbench.InputError, "pose 0: ends in another row"),
                  (lambda: lmdbench.query(box, box, np.stack([np.eye(4), mirrored]), 0.1), lmdbench.InputError, "pose 1: .*no rotation"),
                  (lambda: lmdbench.query(box, box, np.full((4, 4), np.inf), 0.1), lmdbench.InputError, "not finite"),
+                 (lambda: lmdbench.query(box, box, np.stack([np.eye(4), at(1e19)]), 0.1), lmdbench.InputError, "pose 1: is farther than"),
                  (lambda: lmdbench.query(box, box, np.eye(4), float("nan")), lmdbench.UsageError, "cutoff"),
                  (lambda: lmdbench.query(box, [], np.eye(4), 0.1), lmdbench.UsageError, "fixed: names no mesh"),
                  (lambda: lmdbench.query(box, box, np.eye(4), 0.1, method=""), lmdbench.UsageError, "method"))
@@ -225,6 +227,14 @@ class Arrays(Files):
         self.assertEqual(times.tolist(), [0.0, 0.5])
         np.testing.assert_allclose(poses[0], [[0.28, -0.96, 0, 1], [0.96, 0.28, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]], atol=1e-15)
         np.testing.assert_array_equal(poses[1], np.eye(4))
+        # A quaternion that was a matrix on its way is that pose.
+        box = lmdbench.Mesh(CORNERS, SIDES)
+        lmdbench.agreement(lmdbench.truth(box, box, path, 0.1), lmdbench.query(box, box, poses, 0.1))
+
+    def test_names_of_files_may_hold_any_bytes(self):
+        odd = os.fsdecode(os.fsencode(self.write_off("box.off", CORNERS, SIDES)).replace(b"box", b"b\xffx"))
+        os.rename(os.path.join(self.folder, "box.off"), odd)
+        self.assertEqual(lmdbench.Mesh(odd).vertices.shape, (8, 3))
 
 
 class ForcesAndTruth(unittest.TestCase):
@@ -237,7 +247,7 @@ class ForcesAndTruth(unittest.TestCase):
         np.testing.assert_allclose(lmdbench.forces(sets, 0.05, 3.0, reference=centre).torque[0], 0, atol=1e-12)
         soft = lmdbench.forces(sets, 0.05, 3.0, sharpness=2.0)
         np.testing.assert_allclose(soft.force[0, 2], 3 * np.expm1(2 * 0.6) / np.expm1(2), rtol=1e-9)
-        for wrong in ({"law": "cubic"}, {"saturation_distance": 0.06}, {"reference": np.zeros((2, 3))}):
+        for wrong in ({"law": "cubic"}, {"saturation_distance": 0.06}, {"reference": np.zeros((2, 3))}, {"reference": [np.nan] * 3}):
             with self.assertRaises(lmdbench.UsageError):
                 lmdbench.forces(sets, 0.05, 3.0, **wrong)
         with self.assertRaisesRegex(lmdbench.UsageError, "above that of the search"):
@@ -260,6 +270,8 @@ class ForcesAndTruth(unittest.TestCase):
             lmdbench.agreement(true_sets, lmdbench.query((CORNERS, SIDES), mesh, poses, 0.2))
         with self.assertRaisesRegex(lmdbench.UsageError, "different poses"):
             lmdbench.agreement(true_sets, lmdbench.query(mesh, mesh, poses[::-1], 0.2))
+        with self.assertRaisesRegex(lmdbench.UsageError, "of cutoffs 0.2 and 0.1"):
+            lmdbench.agreement(true_sets, lmdbench.query(mesh, mesh, poses, 0.1))
         # As many triangles, but other vertices: the features of one are none of the other's.
         box, loose = lmdbench.Mesh(CORNERS, SIDES), lmdbench.Mesh(CORNERS[SIDES].reshape(-1, 3), np.arange(SIDES.size).reshape(-1, 3))
         with self.assertRaisesRegex(lmdbench.UsageError, "different meshes"):
@@ -306,7 +318,7 @@ class Interpreter(unittest.TestCase):
     def test_everything_public_says_what_it_is(self):
         for name in lmdbench.__all__:
             thing = getattr(lmdbench, name)
-            if name != "LMD_DTYPE":
+            if name not in ("LMD_DTYPE", "__version__"):
                 self.assertTrue(thing.__doc__ and len(thing.__doc__) > 20, name)
 
 

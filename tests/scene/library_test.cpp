@@ -6,10 +6,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/lmd_text.h>
 #include <support/message_of.h>
 #include <support/scenes.h>
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace lmdbench {
@@ -18,6 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::moved;
+using testing::text;
 
 TEST(LibraryInstances, AreCopiesOfOneMeshAtTheirPoses) {
   const PreparedMesh ball(make_sphere(0.5, 2));
@@ -61,6 +64,43 @@ TEST(LibraryInstances, RefusesWhatIsNoPose) {
   lost.translation.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(made_with({Pose{}, scaled}), HasSubstr("X_WF 1"));
   EXPECT_THAT(made_with({lost, Pose{}}), HasSubstr("X_WF 0"));
+}
+
+/// As of a part of a mesh that keeps the array of the whole.
+TEST(LibraryMeshes, VerticesWithoutTrianglesCountForNothing) {
+  TriangleMesh plate = make_patch(1.1, 12, 5e-4);
+  for (Vec3& vertex : plate.vertices) vertex = vertex.cast<float>().cast<double>();
+  TriangleMesh more = plate;
+  more.vertices.emplace_back(1e4, 0.1, 0.0);
+  const auto found = [&](const TriangleMesh& mesh, const std::string& tolerance) {
+    const PreparedMesh fixed(mesh, tolerance), ball(make_sphere(0.5, 2));
+    return LmdSearch(ball, fixed, 0.2).at(moved(0.0, 0.0, 0.55));
+  };
+  for (const std::string tolerance : {"auto", "off", "0.001%"}) {
+    const LmdSet expected = found(plate, tolerance), lmds = found(more, tolerance);
+    ASSERT_FALSE(expected.empty());
+    EXPECT_EQ(text(lmds), text(expected)) << tolerance;
+  }
+}
+
+TEST(LibraryMeshes, RefusesAToleranceThatIsNoLength) {
+  for (const double tolerance :
+       {std::numeric_limits<double>::quiet_NaN(), -1e-9, std::numeric_limits<double>::infinity()}) {
+    TriangleMesh box = make_box({1, 1, 1});
+    box.planar_tolerance = tolerance;
+    EXPECT_THAT(message_of<InputError>([&] { PreparedMesh mesh(box, "auto", "peg"); }),
+                HasSubstr("peg: planar_tolerance"));
+  }
+}
+
+TEST(LibrarySearch, OptionsAreReadAsTheProgramReadsThem) {
+  const PreparedMesh cube(make_box({1, 1, 1}));
+  const auto said = [&](const std::string& options) {
+    return message_of<UsageError>([&] { LmdSearch(cube, cube, 0.1, "certified", options); });
+  };
+  EXPECT_THAT(said(R"({"frame_coherence": true, "frame_coherence": false})"), HasSubstr("frame_coherence"));
+  EXPECT_THAT(said("{\"frame_coherence\":" + std::string(100000, '[') + std::string(100000, ']') + "}"),
+              HasSubstr("options"));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <lmdbench/methods/query.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/plugin/outsider_notes.h>
 #include <lmdbench/shape/flatten.h>
 
 #include <CLI/CLI.hpp>
@@ -97,11 +98,16 @@ void run_query(const QueryOptions& options) {
   const Scene scene{
       load(options.moving, options, of_moving), {load(options.fixed, options, of_fixed)}, options.cutoff};
   const std::unique_ptr<Method> method = make_method(options.method, scene, method_options);
+  WorkCounters all;
   for (const TimedPose& pose : poses) {
     const QueryAnswer answer = options.critical ? query_critical(*method, pose.pose, pose.time)
                                                 : query(*method, pose.pose, options.cutoff, pose.time);
     fmt::print("{}{}", options.json ? query_json(answer) : query_text(answer), options.json ? "\n" : "");
+    for (std::size_t k = 0; k < answer.counters.size(); ++k)
+      all.values[method->description().counters[k].index] += answer.counters[k].second;
   }
+  for (const std::string& note : outsider_notes(method->description(), options.method, all))
+    spdlog::warn("{}", note);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/build_info.h>
+#include <lmdbench/base/json_text.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/mesh_limits.h>
 #include <lmdbench/geometry/tolerance.h>
@@ -20,6 +21,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
@@ -29,6 +31,17 @@ std::shared_ptr<const Body> prepare(TriangleMesh mesh, const std::string& planar
   const PlanarTolerance tolerance = parse_planar_tolerance(planar_tolerance, name, "planar_tolerance");
   flipped = flatten(mesh, tolerance).flipped_triangles;
   return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
+}
+
+/// Vertices without triangles are not on the surface and must not count for its size, digits and
+/// tolerance (import.h); they keep their numbers, so they are put onto one that is.
+void hide_unused_vertices(TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size());
+  for (const auto& corners : mesh.triangles)
+    for (const std::int32_t corner : corners) used[static_cast<std::size_t>(corner)] = true;
+  const Vec3 place = mesh.triangle(0).a;
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) mesh.vertices[v] = place;
 }
 
 /// The checks that reading a file makes.
@@ -46,6 +59,9 @@ void check_mesh_in_memory(const TriangleMesh& mesh, const std::string& name) {
         throw InputError(name, fmt::format("triangle {}", t),
                          fmt::format("names vertex {} of {}", corner, count),
                          "vertices count from 0 in the order of the array");
+  if (!(mesh.planar_tolerance >= 0.0 && mesh.planar_tolerance <= LARGEST_COORDINATE))
+    throw InputError(name, "planar_tolerance", fmt::format("{} is no length", mesh.planar_tolerance),
+                     "give 0, or metres");
   refuse_extreme_size(mesh, name);
   check_mesh_limits(mesh, name);
 }
@@ -77,7 +93,7 @@ Scene scene_of(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixe
 
 nlohmann::json options_of(const std::string& method, const std::string& text) {
   const MethodDescription& description = method_description(method);  // reports a misspelt name
-  nlohmann::json options = nlohmann::json::parse(text, nullptr, false);
+  nlohmann::json options = parse_json(text, "options");
   if (!options.is_object())
     throw UsageError("", "options", fmt::format("'{}' is no JSON object", text),
                      R"(give one, for example {"visibility": "off"})");
@@ -91,6 +107,7 @@ PreparedMesh::PreparedMesh(const std::filesystem::path& file, const std::string&
 
 PreparedMesh::PreparedMesh(TriangleMesh mesh, const std::string& planar_tolerance, const std::string& name) {
   check_mesh_in_memory(mesh, name);
+  hide_unused_vertices(mesh);
   body_ = prepare(std::move(mesh), planar_tolerance, name, flipped_);
 }
 

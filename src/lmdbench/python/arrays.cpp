@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/motion/tum_file.h>
 #include <lmdbench/python/arrays.h>
 
@@ -51,6 +52,8 @@ TimedPose pose_of(const double* numbers, std::size_t index) {
                      "give rigid transforms of column vectors: [[R, t], [0 0 0 1]], R R^T = I, det R = 1");
   };
   if (!matrix.allFinite()) refuse_pose("holds a number that is not finite");
+  if (matrix.cwiseAbs().maxCoeff() > LARGEST_COORDINATE)
+    refuse_pose(fmt::format("is farther than {:g} m", LARGEST_COORDINATE));
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
     refuse_pose("ends in another row than 0 0 0 1");
   const double off = (rotation * rotation.transpose() - Mat3::Identity()).cwiseAbs().maxCoeff();
@@ -119,9 +122,9 @@ py::array lmds_view(const LmdSet& lmds, const py::object& owner) {
 
 TriangleMesh mesh_of(const py::array& vertices, const py::array& triangles, const std::string& name) {
   TriangleMesh mesh;
-  mesh.vertices = rows_of_three(vertices, "vertices", "(V, 3) real numbers, metres");
+  mesh.vertices = rows_of_three(vertices, name + ": vertices", "(V, 3) real numbers, metres");
   if (triangles.ndim() != 2 || triangles.shape(1) != 3 || !holds(triangles, "iu"))
-    refuse("triangles", triangles, "(T, 3) whole numbers, vertices counted from 0");
+    refuse(name + ": triangles", triangles, "(T, 3) whole numbers, vertices counted from 0");
   const Integers corners(triangles);
   const auto count = static_cast<std::int64_t>(mesh.vertices.size());
   mesh.triangles.resize(static_cast<std::size_t>(triangles.shape(0)));
@@ -176,6 +179,9 @@ Points::Points(const py::array& points, const std::string& name) {
   const std::string wanted = "(3) or (N, 3) real numbers, metres";
   rows_ = rows_of_three(points.ndim() == 1 ? points.attr("reshape")(1, -1).cast<py::array>() : points, name,
                         wanted);
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (!rows_[i].allFinite())
+      throw UsageError("", name, fmt::format("row {} is not finite", i), "give metres");
 }
 
 void require_rows(const Points& points, std::size_t count, const std::string& name) {

@@ -74,7 +74,7 @@ py::array matrices_of(const Path& path);
 /// Points (n, 3), or one (3) for all rows.
 class Points {
  public:
-  /// @throws UsageError for another shape
+  /// @throws UsageError for another shape, or a number that is not finite
   Points(const py::array& points, const std::string& name);
   Vec3 row(std::size_t index) const { return rows_[rows_.size() == 1 ? 0 : index]; }
   std::size_t size() const { return rows_.size(); }

@@ -13,9 +13,11 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -116,6 +118,13 @@ bool same_shapes(const Scene& a, const Scene& b) {
                             [&](const FixedBody& x, const FixedBody& y) { return same(*x, *y); });
 }
 
+/// To rounding: a quaternion may have been a matrix on its way.
+bool same_pose(const TimedPose& a, const TimedPose& b) {
+  constexpr double ROUNDING = 1e-14;
+  const auto &p = a.pose.rotation.coeffs(), &q = b.pose.rotation.coeffs();
+  return a.pose.translation == b.pose.translation && std::min((p - q).norm(), (p + q).norm()) <= ROUNDING;
+}
+
 /// (N, 4) counts: true, found, reported, right.
 py::array agreements(const Sets& truth, const Sets& reported, bool neighbouring) {
   if (truth.sets.size() != reported.sets.size())
@@ -123,10 +132,11 @@ py::array agreements(const Sets& truth, const Sets& reported, bool neighbouring)
                      "search the same poses");
   if (!same_shapes(truth.scene, reported.scene))
     throw UsageError("", "sets", "are of different meshes", "search the same meshes");
-  if (!std::ranges::equal(truth.path, reported.path, [](const TimedPose& a, const TimedPose& b) {
-        return a.pose.translation == b.pose.translation &&
-               a.pose.rotation.coeffs() == b.pose.rotation.coeffs();
-      }))
+  if (truth.scene.cutoff != reported.scene.cutoff)
+    throw UsageError("", "sets",
+                     fmt::format("are of cutoffs {} and {}", truth.scene.cutoff, reported.scene.cutoff),
+                     "search with one cutoff");
+  if (!std::ranges::equal(truth.path, reported.path, same_pose))
     throw UsageError("", "sets", "are of different poses", "search the same poses");
   std::vector<std::array<std::int64_t, 4>> rows(truth.sets.size());
   {
@@ -159,8 +169,8 @@ PYBIND11_MODULE(_lmdbench, module) {
   py::class_<PreparedMesh>(module, "Mesh")
       .def_static(
           "from_file",
-          [](const std::string& file, const std::string& tolerance) {
-            return PreparedMesh(std::filesystem::path(file), tolerance);
+          [](const std::filesystem::path& file, const std::string& tolerance) {
+            return PreparedMesh(file, tolerance);
           },
           py::arg("file"), py::arg("planar_tolerance"), py::call_guard<py::gil_scoped_release>())
       .def_static(
@@ -183,7 +193,7 @@ PYBIND11_MODULE(_lmdbench, module) {
 
   py::class_<Poses>(module, "Poses")
       .def_static(
-          "from_tum", [](const std::string& file) { return Poses{read_tum(std::filesystem::path(file))}; },
+          "from_tum", [](const std::filesystem::path& file) { return Poses{read_tum(file)}; },
           py::arg("file"), py::call_guard<py::gil_scoped_release>())
       .def_static(
           "from_matrices", [](const py::array& matrices) { return Poses{poses_of(matrices)}; },

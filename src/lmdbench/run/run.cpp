@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/statistics.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/plugin/outsider_notes.h>
 #include <lmdbench/prepare/contact.h>
 #include <lmdbench/realtime/driver.h>
 #include <lmdbench/run/run.h>
@@ -67,15 +68,10 @@ void note_outsiders(const Experiment& experiment, RunResult& result) {
     const MethodDescription& method = method_description(experiment.methods[i].name);
     if (method.plugin.empty()) continue;
     const MethodRecord& record = result.records[i];
-    for (const CounterDescription& mark : method.counters) {
-      if (mark.index >= MethodDescription::MARKS) continue;
-      std::uint64_t all = 0;
-      for (const FrameRecord& frame : record.frames) all += frame.counters.values[mark.index];
-      if (all == 0) continue;
-      result.warnings.push_back(
-          fmt::format("{}, from outside: {} {}{}", record.label, all, mark.summary,
-                      mark.index == 0 ? "; the last one: " + method.faults->last() : ""));
-    }
+    WorkCounters all;
+    for (const FrameRecord& frame : record.frames) all += frame.counters;
+    for (std::string& note : outsider_notes(method, record.label, all))
+      result.warnings.push_back(std::move(note));
     if (record.other_repetitions > 0)
       result.warnings.push_back(
           fmt::format("{}, from outside: {} of {} repetitions left another result than the first, which is "

@@ -35,14 +35,16 @@ from ._lmdbench import EnvironmentError, Error, InputError, UsageError, __versio
 
 __all__ = ["Agreement", "EnvironmentError", "Error", "FeatureKind", "Forces", "InputError", "LMD_DTYPE", "LmdSets", "Mesh",
            "Search", "UsageError", "agreement", "forces", "method_names", "open_result", "open_sweep", "query", "read_tum",
-           "truth"]
+           "truth", "__version__"]
 
 #: Of a set: distance (m), point_moving, point_fixed (3, m), direction (3, moving to fixed point),
 #: feature_moving, feature_fixed (kind: a FeatureKind, index), fixed_body (its mesh), intersecting.
+#: Where triangles intersect, the distance is 0 and the direction NaN.
 LMD_DTYPE: np.dtype = _lmdbench.LMD_DTYPE
 
 FileName = Union[str, "os.PathLike[str]"]
 MeshLike = Union["Mesh", FileName, "tuple[npt.ArrayLike, npt.ArrayLike]"]
+MeshesLike = Union[MeshLike, "list[Mesh]", "list[FileName]", "list[str]", "list[tuple[npt.ArrayLike, npt.ArrayLike]]", "list[MeshLike]"]
 PosesLike = Union[npt.ArrayLike, FileName]
 
 
@@ -60,7 +62,8 @@ class Mesh:
     Mesh(file)                  OFF; PLY, OBJ, STL or glTF 2 where the build has assimp. Vertices of one position are
                                 welded, those without triangles left out.
     Mesh(vertices, triangles)   (V, 3) metres and (T, 3) whole numbers, counter-clockwise seen from outside; features count
-                                the caller's rows. A triangle without area that closes a T junction is flipped with the
+                                the caller's rows. Vertices without triangles count for nothing, and stand at a corner of
+                                one. A triangle without area that closes a T junction is flipped with the
                                 one beside it, and both keep their rows: see `triangles` and `findings`.
 
     planar_tolerance: how far vertices of one plane may have left it, and are put back: "auto" (what single-precision
@@ -144,7 +147,7 @@ class Search:
     Takes what `query` takes; prepares the meshes once. Threads may share one: they wait for each other.
     """
 
-    def __init__(self, moving: MeshLike, fixed: Union[MeshLike, list[MeshLike]], cutoff: float, method: str = "certified",
+    def __init__(self, moving: MeshLike, fixed: MeshesLike, cutoff: float, method: str = "certified",
                  **options: object) -> None:
         several = fixed if isinstance(fixed, list) else [fixed]
         self.moving = as_mesh(moving, "moving")  #: a Mesh
@@ -183,7 +186,7 @@ def as_poses(poses: PosesLike) -> _lmdbench.Poses:
     return _lmdbench.Poses.from_matrices(np.asarray(poses))
 
 
-def query(moving: MeshLike, fixed: Union[MeshLike, list[MeshLike]], poses: PosesLike, cutoff: float,
+def query(moving: MeshLike, fixed: MeshesLike, poses: PosesLike, cutoff: float,
           method: str = "certified", **options: object) -> LmdSets:
     """The LMD set of every pose.
 
@@ -199,7 +202,7 @@ def query(moving: MeshLike, fixed: Union[MeshLike, list[MeshLike]], poses: Poses
     return Search(moving, fixed, cutoff, method, **options)(poses)
 
 
-def truth(moving: MeshLike, fixed: Union[MeshLike, list[MeshLike]], poses: PosesLike, cutoff: float) -> LmdSets:
+def truth(moving: MeshLike, fixed: MeshesLike, poses: PosesLike, cutoff: float) -> LmdSets:
     """Ground truth: the sets that looking at every triangle pair finds. Arguments and result as of `query`; slow."""
     return query(moving, fixed, poses, cutoff, method="exhaustive")
 
@@ -231,7 +234,7 @@ def agreement(true_sets: LmdSets, sets: LmdSets, *, neighbouring: bool = False) 
     """Compares sets of the same poses and meshes, feature pair by feature pair.
 
     neighbouring: features that share a triangle with the true ones count, too.
-    Raises UsageError for sets of other poses or meshes.
+    Raises UsageError for sets of other poses (to rounding), meshes or cutoffs.
     """
     counts = _lmdbench.agreements(true_sets._sets, sets._sets, neighbouring)
     return Agreement(*counts.T)
@@ -247,7 +250,8 @@ class Forces(NamedTuple):
 
 def forces(sets: LmdSets, cutoff: float, maximum_force: float, *, law: str = "exponential", saturation_distance: float = 0.0,
            sharpness: float = 4.0, reference: npt.ArrayLike = (0.0, 0.0, 0.0)) -> Forces:
-    """The sum of the LMDs' forces: each pushes the moving mesh away along its direction.
+    """The sum of the LMDs' forces: each pushes the moving mesh away along its direction. Those without one, where triangles
+    intersect, add nothing; `lmdbench run` keeps the last direction that an LMD had.
 
     cutoff:              no force at or beyond it [m]; not above that of the search
     maximum_force:       of one LMD, at or below `saturation_distance` [m] [N]

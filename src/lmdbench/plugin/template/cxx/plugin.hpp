@@ -34,7 +34,7 @@ struct Functions {
       why = text.c_str();
     } catch (...) {
     }
-    if (message_size > 0) std::string(why).append(1, '\0').copy(message, message_size);
+    if (message_size > 0) message[std::string(why).copy(message, message_size - 1)] = '\0';
     return 1;
   }
   static int32_t search(void* instance, const double* X_BA, lmdbench_contact* contacts, uint64_t capacity,
