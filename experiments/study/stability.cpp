@@ -1,20 +1,15 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/base/error.h>
 #include <lmdbench/stability/stability_map.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <study/studies.h>
 
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 /// Runs of the stability maps, one JSON object a line, for scripts/figures/stability_map.py.
@@ -24,48 +19,17 @@ namespace {
 struct StabilityChoice {
   std::vector<std::string> experiments;
   std::vector<std::string> overrides;
-  std::string known;
   StabilityMapGrid grid{{150, 500, 1500, 5000, 11000, 16000}, {0, 5, 20, 100}};
 };
 
-/// Which run it is: scene, method, profile, age, stiffness, seed.
-using RunKey = std::tuple<std::string, std::string, std::string, std::int64_t, double, std::int64_t>;
-
-/// Runs that an interrupted study has finished.
-std::set<RunKey> read_known(const std::string& file) {
-  std::set<RunKey> known;
-  if (file.empty()) return known;
-  std::ifstream stream(file);
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    try {
-      const auto run = nlohmann::json::parse(line);
-      known.emplace(run.at("scene"), run.at("method"), run.at("profile"), run.at("age_frames"),
-                    run.at("stiffness_n_per_m"), run.at("seed"));
-    } catch (const nlohmann::json::exception& error) {
-      throw InputError(file, fmt::format("line {}", number), error.what(),
-                       "name what this study printed, without a line that was cut short");
-    }
-  }
-  if (!stream.eof()) throw InputError(file, "", "cannot be read", "name what this study printed");
-  return known;
-}
-
 int map(const StabilityChoice& choice) {
-  const std::set<RunKey> known = read_known(choice.known);
   for (const std::string& file : choice.experiments) {
     const Experiment experiment = load_experiment(file, choice.overrides);
-    map_stability(
-        experiment, choice.grid,
-        [&](const StabilityMapRun& run) {
-          fmt::print("{}\n", stability_map_json(experiment.name, run));
-          std::fflush(stdout);  // keeps the line if the rest is interrupted
-          return true;
-        },
-        [&](const StabilityMapRun& run) {
-          return !known.contains(
-              {experiment.name, run.method, run.profile, run.age_frames, run.stiffness_n_per_m, run.seed});
-        });
+    map_stability(experiment, choice.grid, [&](const StabilityMapRun& run) {
+      fmt::print("{}\n", stability_map_json(experiment.name, run));
+      std::fflush(stdout);  // keeps the line if the rest is interrupted
+      return true;
+    });
   }
   return 0;
 }
@@ -87,8 +51,6 @@ void add_stability(CLI::App& app, Run& chosen) {
                       "frames between searches, and until their sets arrive");
   command->add_option("--seeds", choice->grid.seeds, "tremors of the hand a point")
       ->check(CLI::PositiveNumber);
-  command->add_option("--known", choice->known, "print only the runs that this output of the study lacks")
-      ->check(CLI::ExistingFile);
   command->add_option("--frames", choice->grid.frames, "frames a run")->check(CLI::PositiveNumber);
   command->callback([choice, &chosen] { chosen.work = [choice] { return map(*choice); }; });
 }

@@ -15,10 +15,10 @@ namespace lmdbench::testing {
 inline std::string text(const LmdSet& lmds) {
   std::string result;
   for (const Lmd& lmd : lmds)
-    result += fmt::format("{:.17g} {} {} - {} {} at {:.17g} {:.17g} {:.17g}\n", lmd.distance,
+    result += fmt::format("{:.17g} {} {} - {} {} at {:.17g} {:.17g} {:.17g}{}\n", lmd.distance,
                           to_string(lmd.feature_moving.kind), lmd.feature_moving.index,
                           to_string(lmd.feature_fixed.kind), lmd.feature_fixed.index, lmd.point_fixed.x(),
-                          lmd.point_fixed.y(), lmd.point_fixed.z());
+                          lmd.point_fixed.y(), lmd.point_fixed.z(), lmd.intersecting ? " intersecting" : "");
   return result;
 }
 

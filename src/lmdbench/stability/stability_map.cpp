@@ -116,8 +116,7 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
 }  // namespace
 
 void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
-                   const std::function<bool(const StabilityMapRun&)>& sink,
-                   const std::function<bool(const StabilityMapRun&)>& wanted) {
+                   const std::function<bool(const StabilityMapRun&)>& sink) {
   const LoopChoice& loop = experiment.loop;
   const std::string file = experiment.file.string();
   if (!loop.closed)
@@ -160,7 +159,6 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
           run.age_frames = age;
           run.stiffness_n_per_m = stiffness;
           run.seed = seed;
-          if (wanted && !wanted(run)) continue;
           DriverInput input = prepared.input;
           input.poses = meant_path(prepared.input.poses, grid.frames, rate, press_W,
                                    TREMOR_CUTOFF * profile.force.cutoff, seed);

@@ -63,12 +63,10 @@ struct StabilityMapRun {
   bool clean() const { return !shaking() && !through(); }
 };
 
-/// @param wanted tells, with method to seed set, whether to make a run; unset: all
 /// @param sink receives every finished run; false stops
 /// @throws UsageError for an open loop, a hand without spring, or no contact at the first pose
 void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
-                   const std::function<bool(const StabilityMapRun&)>& sink,
-                   const std::function<bool(const StabilityMapRun&)>& wanted = nullptr);
+                   const std::function<bool(const StabilityMapRun&)>& sink);
 
 /// A JSON object on one line.
 std::string stability_map_json(const std::string& scene, const StabilityMapRun& run);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <support/convex_bodies.h>
+#include <support/lmd_text.h>
 #include <support/scenes.h>
 
 #include <cmath>
@@ -22,24 +23,13 @@ namespace {
 using testing::grazing_pose;
 using testing::make_scene;
 using testing::moved;
+using testing::text;
 using testing::uniform;
-
-std::string describe(const LmdSet& lmds) {
-  std::ostringstream text;
-  text.precision(17);
-  for (const Lmd& lmd : lmds) {
-    text << "  " << lmd.distance << " " << to_string(lmd.feature_moving.kind) << " "
-         << lmd.feature_moving.index << ", " << to_string(lmd.feature_fixed.kind) << " "
-         << lmd.feature_fixed.index << ", triangles " << lmd.triangle_moving << " " << lmd.triangle_fixed
-         << ", points " << lmd.point_moving.transpose() << ", " << lmd.point_fixed.transpose() << "\n";
-  }
-  return text.str();
-}
 
 /// Same feature pairs in the same order, same flags, points equal up to 1e-12 of the coordinates.
 ::testing::AssertionResult same_set(const LmdSet& truth, const LmdSet& found) {
   const auto failure = [&] {
-    return ::testing::AssertionFailure() << "truth:\n" << describe(truth) << "found:\n" << describe(found);
+    return ::testing::AssertionFailure() << "truth:\n" << text(truth) << "found:\n" << text(found);
   };
   if (truth.size() != found.size()) return failure();
   for (std::size_t i = 0; i < truth.size(); ++i) {

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <support/files.h>
 #include <support/source_directory.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,20 +14,13 @@
 namespace lmdbench {
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 std::filesystem::path source_folder() {
   return std::filesystem::path(LMDBENCH_SOURCE_DIR) / "src" / "lmdbench";
 }
 
 /// Numbers of the lemmas in the order of their headings.
 std::vector<int> lemmas_of_the_proof() {
-  const std::string proof = text_of(source_folder() / "methods" / "certified" / "PROOF.md");
+  const std::string proof = testing::read_text(source_folder() / "methods" / "certified" / "PROOF.md");
   static const std::regex heading(R"(\*\*Lemma (\d+),)");
   std::vector<int> lemmas;
   for (std::sregex_iterator found(proof.begin(), proof.end(), heading), end; found != end; ++found)
@@ -44,7 +36,7 @@ std::set<int> lemmas_of_the_code() {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source_folder())) {
     const auto extension = entry.path().extension();
     if (extension != ".h" && extension != ".cpp") continue;
-    const std::string code = text_of(entry.path());
+    const std::string code = testing::read_text(entry.path());
     for (std::sregex_iterator found(code.begin(), code.end(), mention), end; found != end; ++found) {
       const std::string list = (*found)[1];
       for (std::sregex_iterator one(list.begin(), list.end(), numbers); one != end; ++one)

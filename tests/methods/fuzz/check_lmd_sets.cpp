@@ -6,9 +6,10 @@
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/registry.h>
 
+#include <support/lmd_text.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace lmdbench::testing {
 namespace {
@@ -73,16 +74,6 @@ TriangleMesh mesh_from(Bytes& bytes) {
   return mesh;
 }
 
-std::string text_of(const LmdSet& lmds) {
-  std::ostringstream text;
-  text.precision(17);
-  for (const Lmd& lmd : lmds)
-    text << "  " << lmd.distance << " " << to_string(lmd.feature_moving.kind) << " "
-         << lmd.feature_moving.index << ", " << to_string(lmd.feature_fixed.kind) << " "
-         << lmd.feature_fixed.index << (lmd.intersecting ? " touching\n" : "\n");
-  return text.str();
-}
-
 LmdSet search(const FuzzScene& fuzz, std::string_view name, const nlohmann::json& options = {}) {
   return lmds_at(*make_method(name, fuzz.scene, options), fuzz.X_WM);
 }
@@ -111,7 +102,7 @@ std::optional<FuzzScene> scene_from_bytes(std::span<const std::uint8_t> data) {
 std::string broken_promise(const FuzzScene& fuzz) {
   const LmdSet truth = search(fuzz, "exhaustive"), certified = search(fuzz, "certified");
   const auto complain = [&](const std::string& what) {
-    return what + "\nexhaustive:\n" + text_of(truth) + "certified:\n" + text_of(certified);
+    return what + "\nexhaustive:\n" + text(truth) + "certified:\n" + text(certified);
   };
   for (const Lmd& lmd : truth) {
     const bool apart = !lmd.intersecting && lmd.distance > 0.0;
@@ -141,7 +132,7 @@ std::string broken_promise(const FuzzScene& fuzz) {
     return {};
   const LmdSet candidates = search(fuzz, "improved", {{"visibility", "off"}});
   if (!(minimum_distance(candidates) <= minimum_distance(truth) + 1e-12))
-    return complain("candidates without the nearest LMD:\n" + text_of(candidates));
+    return complain("candidates without the nearest LMD:\n" + text(candidates));
   return {};
 }
 
