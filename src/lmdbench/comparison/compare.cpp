@@ -217,6 +217,10 @@ void note_limits(Comparison& comparison) {
         "absolute times are not compared, the machines differ; methods are compared with each other within "
         "each file, changes under {:.0f} % are taken for the machine's",
         100.0 * CROSS_MACHINE_EFFECT));
+  if (comparison.timings.empty()) {
+    comparison.notes.emplace_back("no time was compared: on two machines that takes two methods");
+    return;
+  }
   const std::size_t base = comparison.base.size(), candidate = comparison.candidate.size();
   std::size_t needed = 0;
   for (const Timing& timing : comparison.timings)
@@ -237,6 +241,7 @@ void note_limits(Comparison& comparison) {
 
 Verdict overall(const Comparison& comparison) {
   if (!comparison.differences.empty()) return Verdict::CHANGED;
+  if (comparison.timings.empty()) return Verdict::UNSURE;
   const auto any = [&](Verdict verdict) {
     return std::any_of(comparison.timings.begin(), comparison.timings.end(),
                        [&](const Timing& timing) { return timing.verdict == verdict; });
