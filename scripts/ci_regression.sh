@@ -78,14 +78,21 @@ out="$(mkdir -p "$out" && cd "$out" && pwd)"
 # broken SIDE STEP MESSAGE LOG: outcome without comparison; exit code by scripts/ci/outcome.py.
 broken() { exec python3 "$ROOT/scripts/ci/outcome.py" "$out" "$@"; }
 
-# build_revision COMMIT: builds $out/tree/COMMIT/build/release/lmdbench like users' programs, but
+# tree_of COMMIT: its worktree; one for each set of CMake options.
+tree_of() {
+  local options=""
+  ((${#cmake_options[@]} == 0)) || options="-$(printf '%s\n' "${cmake_options[@]}" | sha256sum | cut -c1-8)"
+  printf '%s' "$out/tree/$1$options"
+}
+# build_revision COMMIT: builds build/release/lmdbench in its tree like users' programs, but
 # without precompiled headers, which ccache keeps only with user settings. Worktrees share hits.
 build_revision() {
-  local tree="$out/tree/$1"
+  local tree
+  tree="$(tree_of "$1")"
   [[ ! -x $tree/build/release/lmdbench ]] || return 0
   say "building $1"
-  (if [[ ! -e $tree ]]; then
-    git -C "$ROOT" worktree prune && git -C "$ROOT" worktree add --quiet --detach "$tree" "$1" || exit
+  (if [[ ! -e $tree/.git ]]; then
+    rm -rf "$tree" && git -C "$ROOT" worktree prune && git -C "$ROOT" worktree add --quiet --detach "$tree" "$1" || exit
   fi
   cd "$tree" && export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$tree}" CCACHE_NOHASHDIR=1 &&
     cmake --preset release -DLMDBENCH_BUILD_TESTS=OFF -DLMDBENCH_BUILD_EXPERIMENTS=OFF -DLMDBENCH_WITH_CGAL=OFF \
@@ -101,11 +108,11 @@ build_revision "$base" ||
   broken base build "the base $base does not build, or this machine cannot build it" "$out/build-$base.log"
 build_revision "$candidate" ||
   broken candidate build "the candidate $candidate does not build" "$out/build-$candidate.log"
-program="$out/tree/$candidate/build/release/lmdbench"
+program="$(tree_of "$candidate")/build/release/lmdbench"
 "$program" --help >"$out/start.log" 2>&1 || broken candidate run "the candidate $candidate does not start" "$out/start.log"
 judge="${judge:-$program}"
 [[ "$("$judge" compare --help 2>/dev/null || true)" == *--false-alarm* ]] ||
   die 2 "$judge knows no 'compare --false-alarm' (remedy: --judge with a program that does)"
-exec python3 "$ROOT/scripts/ci/regression.py" --base "$out/tree/$base/build/release/lmdbench" \
+exec python3 "$ROOT/scripts/ci/regression.py" --base "$(tree_of "$base")/build/release/lmdbench" \
   --candidate "$program" --judge "$judge" --experiment "$experiment" \
   "${sets[@]}" "${rule[@]}" --out "$out"

@@ -57,7 +57,7 @@ drop_what_does_not_repeat() {
   done
   rm -rf "$scratch"
 }
-found=0
+found=0 idle=0
 printf '%-12s %14s %10s %10s %10s %8s %6s\n' target executions cpu_s edges corpus exec/s finds
 for target in "${targets[@]}"; do
   corpus="$build/corpus/$target"
@@ -88,6 +88,7 @@ for target in "${targets[@]}"; do
     ((finds == 0)) || break
   done
   found=$((found + finds))
+  grep -q '^stat::number_of_executed_units: *[1-9]' "$log" || { say "$target: nothing was executed, see $log"; idle=1; }
   awk -v target="$target" -v finds="$finds" '
     / cov: / { for (i = 1; i < NF; ++i) { if ($i == "cov:") edges = $(i + 1); if ($i == "corp:") corpus = $(i + 1) } }
     /^stat::number_of_executed_units/ { executions += $2 }
@@ -96,4 +97,4 @@ for target in "${targets[@]}"; do
     END { printf "%-12s %14d %10s %10d %10s %8d %6d\n", target, executions, seconds, edges, corpus, rate, finds }' "$log"
 done
 ((found == 0)) || say "finds are in $build/finds, what led to them in $build/logs"
-((found == 0))
+((found == 0 && idle == 0))

@@ -3,7 +3,7 @@
 # shellcheck shell=bash
 # Shared by the scripts, to be sourced. Messages go to stderr.
 
-ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+ROOT="$(CDPATH="" cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 JOBS="$(nproc 2>/dev/null || echo 2)"
 # The program's own exit code for a missing part of the environment.
 EXIT_ENVIRONMENT=4

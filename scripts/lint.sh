@@ -16,6 +16,7 @@ sources() { git ls-files --cached --others --exclude-standard -- "$@" | while re
 
 format() {
   local files bad
+  command -v clang-format >/dev/null || die "$EXIT_ENVIRONMENT" "there is no clang-format (remedy: ./scripts/setup.sh)"
   mapfile -t files < <(sources '*.h' '*.cpp')
   bad="$(clang-format --dry-run --Werror "${files[@]}" 2>&1 | grep -o '^[^:]*:[0-9]*:[0-9]*: error' | cut -d: -f1 | sort -u)"
   [[ -z $bad ]] && say "clang-format: ${#files[@]} files" && return 0

@@ -45,7 +45,10 @@ part() {
       figure figure7 "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5" --out "$OUT"
       figure summary "$OUT/bunny-hard.h5" "$OUT/bunny-soft.h5" | tee "$OUT/summary.txt"
       ;;
-    claim-regions) LMDBENCH_BUILD="$BUILD" LMDBENCH_CLAIMS="$OUT/claims" scripts/claims.sh ;;
+    claim-regions)
+      LMDBENCH_BUILD="$BUILD" LMDBENCH_CLAIMS="$OUT/claims" scripts/claims.sh
+      cp "$OUT"/claims/claim-{regions.md,verdicts.json} "$OUT"
+      ;;
     completeness)
       study completeness --truth-stride 20 --experiment experiments/bunny-hard.json --experiment experiments/bunny-soft.json \
         --experiment experiments/armadillo-bunny.json --experiment experiments/shapes.json
@@ -71,9 +74,9 @@ part() {
     devices) figure device_table --program "$BUILD/lmdbench" ;;
     extreme) LMDBENCH_BUILD="$BUILD" scripts/extreme.sh ;;
     figures)
-      figure figure4 experiments/bunny-soft.json --time 3.396 --out "$OUT"
-      figure what_is_an_lmd --out "$OUT"
-      figure tilt --out "$OUT"
+      figure figure4 experiments/bunny-soft.json --program "$BUILD/lmdbench" --time 3.396 --out "$OUT"
+      figure what_is_an_lmd --program "$BUILD/lmdbench" --out "$OUT"
+      figure tilt --program "$BUILD/lmdbench" --out "$OUT"
       run world --set '/methods=[{"name": "certified"}]' --set /probes/truth/stride_frames=0 --set /probes/fcl/stride_frames=0
       figure world "$OUT/world.h5" --out "$OUT"
       run press-fit
@@ -87,7 +90,7 @@ part() {
       study flat --parts --paths 8 --repetitions 3
       ;;
     global-search) study compare ;;
-    hard-soft) figure hard_soft --program "$BUILD/lmdbench" --out "$OUT" ;;
+    hard-soft) figure hard_soft --program "$BUILD/lmdbench" --runs "$OUT/hard-soft" --out "$OUT" ;;
     hostile-input) "$PYTHON" tests/cli/hostile_set.py "$BUILD/lmdbench" . --count 340 ;;
     interrupted-runs)
       "$PYTHON" tests/cli/kill_test.py "$BUILD/lmdbench" experiments/shapes.json --kills 200 --repetitions 1000 --longest 2.5 \
@@ -122,7 +125,8 @@ part() {
       study recall --moving armadillo --fixed bunny-16k --seed 2 | tee "$OUT/recall-armadillo-bunny.md"
       ;;
     rivals) # needs scripts/packages_rivals.txt
-      cmake -S experiments/rivals -B build/rivals >&2 && cmake --build build/rivals >&2
+      cmake -S experiments/rivals -B build/rivals >&2
+      cmake --build build/rivals >&2
       figure rivals --program "$BUILD/lmdbench" --out "$OUT"
       ;;
     scaling)
@@ -132,7 +136,7 @@ part() {
       echo
       figure scaling "$OUT/scaling.json" "$OUT/dragon.json" --out "$OUT"
       ;;
-    stability) figure stability --program "$BUILD/lmdbench" --out "$OUT" ;;
+    stability) figure stability --program "$BUILD/lmdbench" --rows "$OUT/stability.jsonl" --out "$OUT" ;;
     stability-map)
       study stability experiments/stability/{box,wedge,peg,bunny}.json >"$OUT/stability-map.jsonl"
       figure stability_map "$OUT/stability-map.jsonl" --out "$OUT"
@@ -178,11 +182,11 @@ mkdir -p "$OUT"
 (($#)) || set -- "${PARTS[@]}"
 failed=0
 for name in "$@"; do
-  if [[ -s $OUT/$name.txt ]]; then
+  if [[ -e $OUT/$name.txt ]]; then
     say "$name: $OUT/$name.txt is there"
     continue
   fi
-  if step "$name" "${BASH_SOURCE[0]}" --one "$OUT" "$name" >"$OUT/$name.part"; then
+  if step "$name" "$ROOT/scripts/reference.sh" --one "$OUT" "$name" >"$OUT/$name.part"; then
     mv "$OUT/$name.part" "$OUT/$name.txt"
   else
     failed=1

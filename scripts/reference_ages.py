@@ -46,7 +46,11 @@ def age(row):
     commits = [git("log", "-1", "--format=%H", "--", f"results/reference/{row.files[0]}").stdout.strip() if commit == ADDED else commit
                for commit in row.commits]
     code = [f"{folder}/*.{ending}" for folder in row.folders for ending in ("cpp", "h", "def")]
-    since = max(int(git("rev-list", "--count", f"{commit}..HEAD", "--", *code).stdout or 0) for commit in commits)
+    counts = [git("rev-list", "--count", f"{commit}..HEAD", "--", *code) for commit in commits]
+    for commit, done in zip(commits, counts):
+        if done.returncode != 0:
+            raise SystemExit(f"error: {REGISTER}: {row.files[0]}: {commit}: {done.stderr.strip()} (remedy: a commit of this history)")
+    since = max(int(done.stdout) for done in counts)
     return since + (git("diff", "--quiet", "HEAD", "--", *code).returncode != 0)
 
 

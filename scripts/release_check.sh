@@ -4,9 +4,10 @@
 # All claims of the project at one commit, part by part; a new call continues, on another day or
 # machine too. A part's commit is the last one that changed what the part may read: no page and no
 # result, so that what was measured can be committed; for studies, fuzzing and tables no test, so
-# that a better test leaves them valid; for searches in generated scenes no room above the methods
-# either. Leaves results/release/COMMIT/PART.txt (the output, not committed) and PART.verdict, and
-# page.md in the newest of these folders. Exit code 1 if a part failed or is missing.
+# that a better test leaves them valid; for searches in generated scenes what they include, without
+# rooms above the methods. Leaves results/release/COMMIT/PART.txt (the output, not committed) and
+# PART.verdict, and page.md in the newest of these folders. Exit code 1 if a part failed or is
+# missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -22,9 +23,12 @@ cd "$ROOT" || exit 1
 mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd`, which all methods need, has a third of the time
 PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
   shapes metamorphic rest "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
-# Rooms and headers that make no set: commands, drivers, numbers, files of results, interfaces.
-ABOVE_METHODS=(cli comparison drivers library lmdbench.h manual metrics phantom plugin prepare probes python realtime result run
-  stability sweep view)
+# What searches in generated scenes include,
+SEARCHED=(CMakeLists.txt src experiments/{judge,support,study/completeness}
+  experiments/study/{CMakeLists.txt,main.cpp,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
+# but rooms and headers that make no set: commands, drivers, numbers, files of results, interfaces.
+ABOVE_METHODS=(cli comparison drivers library lmdbench.h manual metrics phantom plugin prepare probes python
+  realtime result run stability sweep view)
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
 FUZZ_MINUTES="${LMDBENCH_FUZZ_MINUTES:-360}"
@@ -49,16 +53,16 @@ all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; 
 
 # commit_of PART: the last one that changed what the part may read.
 commit_of() {
-  local -a unread=(':!results' ':!*.md')
+  local -a read=(.) unread=(':!results' ':!*.md')
   case $1 in
-  hostile | parts | solids | shapes | metamorphic | rest) # of experiments/study and judge: what they include
-    unread+=(':!tests' ':!scripts' "${ABOVE_METHODS[@]/#/:!src/lmdbench/}")
+  hostile | parts | solids | shapes | metamorphic | rest)
+    read=("${SEARCHED[@]}") unread+=("${ABOVE_METHODS[@]/#/:!src/lmdbench/}")
     ;;
   completeness | fuzz-* | reference)
     unread+=(':!*_test.cpp' ':!scripts/mutants.txt')
     ;;
   esac
-  git log -1 --format=%h -- . "${unread[@]}"
+  git log -1 --format=%h -- "${read[@]}" "${unread[@]}"
 }
 # What a part was asked for, beside its name.
 conditions() {
@@ -125,6 +129,8 @@ for name in "${chosen[@]}"; do
   (part "$name") >"$made.txt" 2>&1 || status=$?
   # What ctest counts stands above the tests that it skipped.
   last="$( (grep -a '% tests passed' "$made.txt" || grep -av '^[[:space:]]*$' "$made.txt") | tail -n 1 | tr '|' '/' | cut -c1-120)"
+  skipped="$(grep -ac '(Skipped)$' "$made.txt")"
+  ((skipped == 0)) || last+=", $skipped skipped"
   printf '%s|%s|%s|%s|%s|%s\n' "$status" "$(seconds_since "$started")" "$(date +%F)" "$MACHINE" "$(conditions "$name")" "$last" \
     >"$made.verdict"
   say "   exit code $status, $(seconds_since "$started")"

@@ -151,7 +151,7 @@ def main():
     parser.add_argument("--fresh", action="store_true", help="from an empty build folder")
     arguments = parser.parse_args()
     seconds = build(arguments.fresh)
-    full = arguments.full if os.path.exists(arguments.full) else None
+    full = os.path.abspath(arguments.full) if os.path.exists(arguments.full) else None
     check = Check()
     linked = libraries(PROGRAM)
     check.that(not [lib for lib in linked if any(part in lib for part in LEFT_OUT)], f"links {linked}")

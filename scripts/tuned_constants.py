@@ -100,7 +100,7 @@ def costs(program, experiments, frames):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("experiments", nargs="*", default=["experiments/bunny-hard.json", "experiments/armadillo-bunny.json"])
+    parser.add_argument("experiments", nargs="*", default=[os.path.join(ROOT, "experiments", name) for name in ("bunny-hard.json", "armadillo-bunny.json")])
     parser.add_argument("--frames", type=int, default=3000)
     parser.add_argument("--only", action="append", choices=list(CONSTANTS), help="this constant; may be given again")
     arguments = parser.parse_args()
@@ -109,8 +109,10 @@ def main():
     if not shutil.which("valgrind"):
         fail("there is no valgrind (remedy: apt-get install valgrind)")
     experiments = [os.path.abspath(file) for file in arguments.experiments]
-    run(["git", "-C", ROOT, "worktree", "prune"])
-    if not os.path.exists(TREE):
+    inside = subprocess.run(["git", "-C", TREE, "rev-parse", "--show-toplevel"], capture_output=True, text=True, check=False)
+    if inside.stdout.strip() != os.path.realpath(TREE):  # what a killed call left: git would act on the repository around it
+        shutil.rmtree(TREE, ignore_errors=True)
+        run(["git", "-C", ROOT, "worktree", "prune"])
         run(["git", "-C", ROOT, "worktree", "add", "--quiet", "--detach", TREE])
     try:
         run(["git", "-C", TREE, "checkout", "--quiet", "--force", "--detach",

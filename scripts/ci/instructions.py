@@ -20,10 +20,13 @@ class NotCounted(Exception):
 
 def count(program, scene, folder, name, root):
     """{"Method::function": instructions} of one run; leaves NAME.log and NAME.callgrind in `folder`."""
-    log, counts = os.path.join(folder, name + ".log"), os.path.join(folder, name + ".callgrind")
+    log, counts, out = (os.path.join(folder, name + ending) for ending in (".log", ".callgrind", ".h5"))
+    for left in (out, out + ".part"):  # of a call that was interrupted
+        if os.path.exists(left):
+            os.remove(left)
     # Without address randomisation sizes of hash tables and alignments are the same, too.
     command = ["setarch", "--addr-no-randomize", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, program, "--quiet",
-               "run", *scene, *(word for pair in SHORTENED for word in ("--set", pair)), "--out", os.path.join(folder, name + ".h5")]
+               "run", *scene, *(word for pair in SHORTENED for word in ("--set", pair)), "--out", out]
     with open(log, "w", encoding="utf-8") as stream:
         done = subprocess.run(command, cwd=root, stdin=subprocess.DEVNULL, stdout=stream, stderr=stream, check=False)
     if done.returncode != 0:

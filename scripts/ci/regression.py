@@ -124,16 +124,26 @@ class Regression:
                                  *self.options, *options], {})
         if done.returncode == 2 and OTHER_EXPERIMENT in done.stderr:
             raise OtherExperiment(done.stderr.strip())
+        if done.returncode == 2:
+            sys.stderr.write(done.stderr)
+            raise SystemExit(2)
         if done.returncode not in (0, 1, 4) or not done.stdout:
             own = self.judge == self.programs["cand"]
             raise Broken("candidate" if own else "judge", f"lmdbench compare left with {done.returncode}", done.stderr)
         return done.stdout
 
     def against_base(self, first=0, options=()):
-        return json.loads(self.compare(("base", "null"), ("cand",), first, ("--json", "--false-alarm", str(SUSPICION), *options)))
+        try:
+            return json.loads(self.compare(("base", "null"), ("cand",), first, ("--json", "--false-alarm", str(SUSPICION), *options)))
+        except Broken:
+            self.against_itself()  # says so where the base's processes are no replicates
+            raise
 
     def against_itself(self):
-        return json.loads(self.compare(("base",), ("null",)))
+        answer = json.loads(self.compare(("base",), ("null",)))
+        if answer["verdict"] == "changed":
+            raise Broken("base", "the base's results differ from run to run", "")
+        return answer
 
     def behaviour(self):
         """The exact part, from one round; a verdict and its reason, or None."""

@@ -14,6 +14,7 @@ variants or the time is up; `table` writes verdicts.md and verdicts.png beside i
 import argparse
 import itertools
 import json
+import math
 import os
 import random
 import shutil
@@ -108,7 +109,7 @@ def share(count, total):
 def quantile(values, part):
     """The value at the nearest rank."""
     values = sorted(values)
-    return values[min(len(values) - 1, int(part * len(values)))]
+    return values[max(0, math.ceil(part * len(values)) - 1)]
 
 
 def table(rows):

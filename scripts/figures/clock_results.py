@@ -64,9 +64,8 @@ def thinned(time, values):
     """The largest of each stretch, so that no peak is lost."""
     if values.size <= MOST_POINTS:
         return time, values
-    step = -(-values.size // MOST_POINTS)
-    cut = values.size // step * step
-    return time[:cut:step], values[:cut].reshape(-1, step).max(axis=1)
+    starts = np.arange(0, values.size, -(-values.size // MOST_POINTS))
+    return time[starts], np.maximum.reduceat(values, starts)
 
 
 def draw_timing(named):

@@ -8,6 +8,7 @@ enlarged."""
 import argparse
 import json
 import os
+import tempfile
 from pathlib import Path
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
@@ -117,9 +118,8 @@ def main(argv):
     moving = meshes["moving"][0]
     cutoff = force.get("cutoff_m") or force["cutoff_diagonal"] * float(np.linalg.norm(moving.max(axis=0) - moving.min(axis=0)))
     os.makedirs(arguments.out, exist_ok=True)
-    sets = query(arguments.program, arguments.out, meshes, cutoff, poses, arguments.method)
-    for role in meshes:
-        os.remove(os.path.join(arguments.out, f"{role}.off"))
+    with tempfile.TemporaryDirectory() as scratch:
+        sets = query(arguments.program, scratch, meshes, cutoff, poses, arguments.method)
     shown = index_to_show(sets, poses[:, 0])
     if shown is None:
         when = "on the path" if arguments.time is None else f"at {poses[0, 0]:g} s"

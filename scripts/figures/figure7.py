@@ -103,7 +103,7 @@ def note_beyond(axes):
     beyond = [value for value in drawn_values(axes) if value > axes.get_ylim()[1]] if axes.lines else []
     if not beyond:
         return
-    axes.text(0.995, 0.97, f"{len(beyond)} above, up to {max(beyond):.3g} ms", transform=axes.transAxes, ha="right", va="top", zorder=9,
+    axes.text(0.995, 0.97, f"{len(beyond)} point{'s' * (len(beyond) != 1)} above, up to {max(beyond):.3g} ms", transform=axes.transAxes, ha="right", va="top", zorder=9,
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}, **NOTE)
 
 

@@ -51,7 +51,7 @@ def draw(found):
              ylabel="force error, RMS [% of $F_{max}$]")
     axis.axhspan(0.95, 1.9, color="#F0F0F0", lw=0, zorder=0)
     for series, (colour, name, offset) in METHODS.items():
-        line = [(every, median, late, max(error, ZERO)) for every, median, late, error in found[series]]
+        line = [(every, median, late, error if error > 0 else ZERO) for every, median, late, error in found[series]]
         line.sort(key=lambda point: point[1])
         axis.hlines([point[3] for point in line], [point[1] for point in line], [point[2] for point in line], color=colour, alpha=0.3, lw=1.6, zorder=2)
         axis.plot([point[1] for point in line], [point[3] for point in line], color=colour, marker="o", ms=4.5, mec="white", mew=0.5, zorder=3)

@@ -82,7 +82,7 @@ def main(argv):
             raise ResultError(f"{arguments.result}: no /polylines (remedy: --set /record/polylines/stride_frames=5)")
         lines = Lines(own[0] if own else file["polylines"])
         body = fixed_body(arguments.result, json.loads(text(file["provenance/experiment"][0])))
-        rate = file["scene"].attrs["frame_rate_hz"]
+        path_time = file["path/time"][:]
         validity = json.loads(file["scene/fixed_0"].attrs["validity"])
     points, faces = read_off(os.path.join(arguments.meshes, f"{body['mesh']}.off"))
     pose = {"translation_m": [0.0, 0.0, 0.0], "rotation_xyzw": [0.0, 0.0, 0.0, 1.0], **body.get("pose", {})}
@@ -103,7 +103,7 @@ def main(argv):
                                                    linewidths=1.3, zorder=10))
         figure.text(0.02, 0.95, f"{style.shortened(body['mesh'])}, {validity['triangles']} triangles: "
                     f"curves of {len(chosen)} frame{'s' * (len(chosen) != 1)}", fontsize=8)
-        times = lines.frames / rate
+        times = path_time[lines.frames]
         top = figure.add_axes([0.64, 0.6, 0.34, 0.32])
         top.plot(times, [1e3 * lines.length(i) for i in range(len(times))], color=style.BLUE)
         for i, colour in zip(chosen, colours):

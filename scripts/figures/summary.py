@@ -148,10 +148,10 @@ def main(argv):
     for result in results:
         print(describe(result), end="\n\n")
     print(LEGEND, end="\n\n")
-    machine = results[0].machine()
-    print(f"Machine: {machine.get('processor', 'unknown')}, {machine.get('logical_processors', 'unknown')} processors, "
-          f"load {machine.get('load_average_1_minute', 'unknown')} at the start. Ratios between methods travel to other "
-          "machines, milliseconds do not.")
+    for machine in (result.machine() for result in results):
+        print(f"Machine: {machine.get('processor', 'unknown')}, {machine.get('logical_processors', 'unknown')} processors, "
+              f"load {machine.get('load_average_1_minute', 'unknown')} at the start.")
+    print("Ratios between methods travel to other machines, milliseconds do not.")
     print("Files:")
     for file in [*arguments.results, *arguments.files]:
         print(f"  {os.path.relpath(file)}")

@@ -179,7 +179,8 @@ def draw(sweep):
     keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=style.shortened(series))
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
-    figure.text(0.085, 1 - 0.18 / height, "Error against run time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else ""), fontsize=7.5, fontweight="bold")
+    figure.text(0.085, 1 - 0.18 / height, "Error against run time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else "")
+                + (f"; {len(sweep.problems) - MOST_PANELS} more problems in the tables" if len(sweep.problems) > MOST_PANELS else ""), fontsize=7.5, fontweight="bold")
     style.note_failures(figure, {f"{point.text()} in {point.problem}": point.trouble for point in sweep.points if point.trouble})
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 1 - 0.23 / height), ncol=6, handlelength=1.8, columnspacing=1.4,
                   borderpad=0.1)

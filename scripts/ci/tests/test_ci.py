@@ -229,6 +229,24 @@ class RuleTest(unittest.TestCase):
         self.assertEqual(self.broken_side(["compare"]), "candidate", "its own judge")
         self.assertEqual(self.broken_side(["compare"], judge="another"), "judge")
 
+    def test_a_base_that_changes_from_run_to_run_is_at_fault(self):
+        def run(command, environment):
+            if "compare" not in command:
+                return subprocess.CompletedProcess(command, 0, "", "")
+            pooled = sum("base-" in word or "null-" in word for word in command[command.index("--base"):command.index("--candidate")]) > 1
+            out = "" if pooled else json.dumps({"verdict": "changed", "timings": []})
+            return subprocess.CompletedProcess(command, 3 if pooled else 1, out, "are no replicates")
+        with self.assertRaises(regression.Broken) as caught:
+            rule_of(run, "cand").behaviour()
+        self.assertEqual(caught.exception.side, "base")
+
+    def test_what_the_judge_refuses_is_a_mistake_of_the_call(self):
+        def run(command, environment):
+            return subprocess.CompletedProcess(command, 2 if "compare" in command else 0, "", "no counter 'nosuch'")
+        with self.assertRaises(SystemExit) as caught:
+            rule_of(run).behaviour()
+        self.assertEqual(caught.exception.code, 2)
+
     def test_another_default_of_the_candidate_is_changed(self):
         def run(command, environment):
             refused = "compare" in command

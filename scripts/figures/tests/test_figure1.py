@@ -21,7 +21,7 @@ class Figure1(Scratch):
         figure1.write_off(self.write("meshes/cube.off", ""), CUBE, FACES)
         self.write("paths/p.tum", "# a path\n0 0 0 0 0 0 0 1\n2 1 0 0 0 0 0.7071067811865476 0.7071067811865476\n")
         answer = json.dumps({"time": 0, "lmds": lmds})
-        program = self.write("program", f"#!/bin/sh\necho \"$@\" > {self.folder}/asked\ncat > {self.folder}/pose\ncp {self.folder}/out/moving.off {self.folder}/moved\necho '{answer}'\n")
+        program = self.write("program", f"#!/bin/sh\necho \"$@\" > {self.folder}/asked\ncat > {self.folder}/pose\ncp \"$3\" {self.folder}/moved\necho '{answer}'\n")
         os.chmod(program, 0o755)
         experiment = self.write("experiments/e.json", json.dumps({
             "name": "e", "moving": {"mesh": "cube", "diagonal_m": 2.0}, "fixed": [{"mesh": "cube"}], "path": {"file": "../paths/p.tum"},
@@ -33,6 +33,9 @@ class Figure1(Scratch):
         self.assertIn("--cutoff 0.2", self.read("asked"), "a tenth of the scaled mesh's diagonal")
         self.assertTrue(self.read("pose").startswith("2.0 1.0"), "the pose nearest to the time")
         self.assertEqual(sorted(os.listdir(self.path("out"))), ["figure1.png", "figure1.svg"])
+        mine = self.write("out/moving.off", "mine")
+        figure1.main(self.experiment([LMD]))
+        self.assertEqual(self.read(mine), "mine")
 
     def test_meshes_lie_as_in_a_run(self):
         scaled = figure1.prepared(CUBE, {"mesh": "cube", "diagonal_m": 2.0})

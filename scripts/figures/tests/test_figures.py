@@ -232,7 +232,7 @@ class FigureTest(ScriptsTest):
         axes = figure.axes[4]  # global search, left column
         self.assertEqual(axes.get_shared_x_axes().joined(axes, figure.axes[0]), True)
         self.assertLess(axes.get_ylim()[1], 10.0)
-        self.assertIn("1 above, up to 500 ms", [text.get_text() for text in axes.texts])
+        self.assertIn("1 point above, up to 500 ms", [text.get_text() for text in axes.texts])
 
     def test_figure7_without_truth_says_so(self):
         figure = figure7.draw(Result(self.bare), Result(self.bare))

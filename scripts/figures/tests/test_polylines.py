@@ -27,7 +27,7 @@ class Polylines(Scratch):
             h5["provenance/experiment"] = [json.dumps(experiment)]
             h5.create_group("methods")
             h5.create_group("scene/fixed_0").attrs["validity"] = json.dumps({"triangles": 12})
-            h5["scene"].attrs["frame_rate_hz"] = 1000.0
+            h5["path/time"] = 1000.0 + 0.001 * np.arange(10)
             cut = h5.create_group("polylines")
             cut["frame"], cut["frame_offset"], cut["trace_time"] = [0, 5, 9], [0, 1, 1, 2], [1e-6] * 3
             cut["point_offset"], cut["closed"], cut["length"] = [0, 3, 6], np.array([1, 0], dtype="u1"), [0.1, 0.2]
@@ -41,6 +41,7 @@ class Polylines(Scratch):
         points = drawn.call_args.args[1]
         np.testing.assert_allclose([points.min(axis=0), points.max(axis=0)], [[8.0, 18.0, 30.0], [10.0, 20.0, 32.0]], atol=1e-12)
         self.assertEqual(figure.texts[0].get_text(), "cube, 12 triangles: curves of 2 frames")
+        np.testing.assert_allclose(figure.axes[1].lines[0].get_xdata(), [1000.0, 1000.005, 1000.009])
         style.plt.close(figure)
         self.assertEqual(self.printed(polylines.main, *self.result()).count("polylines."), 2)
 
