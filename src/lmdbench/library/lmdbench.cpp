@@ -39,7 +39,7 @@ void hide_unused_vertices(TriangleMesh& mesh) {
   std::vector<bool> used(mesh.vertices.size());
   for (const auto& corners : mesh.triangles)
     for (const std::int32_t corner : corners) used[static_cast<std::size_t>(corner)] = true;
-  const Vec3 place = mesh.triangle(0).a;
+  const Vec3 place = mesh.triangle(0).front();
   for (std::size_t v = 0; v < used.size(); ++v)
     if (!used[v]) mesh.vertices[v] = place;
 }
