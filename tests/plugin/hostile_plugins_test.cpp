@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <numeric>
 #include <string>
@@ -200,6 +201,23 @@ TEST_F(HostilePlugins, MayBeTrustedAndLeaveTheFloatModeAsItWas) {
   EXPECT_EQ(result.integers("/methods/fast_math/counters/float_mode_changed").front(), 1)
       << "its constructor";
   EXPECT_EQ(result.integers("/methods/throws/counters/frames_lost").at(2), 1);
+}
+
+TEST_F(HostilePlugins, QuerySaysWhatWasLost) {
+  std::ofstream(scratch_ / "tetra.off") << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                           "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  std::ofstream(scratch_ / "poses.tum")
+      << "0 2 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n3 2 0 0 0 0 0 1\n";
+  const auto query = [&](const std::string& name) {
+    return lmdbench("query --moving tetra.off --fixed tetra.off --cutoff 2 --poses poses.tum --plugin " +
+                        FOLDER + name + ".so --method " + name,
+                    scratch_.path());
+  };
+  const Outcome throws = query("throws");
+  EXPECT_EQ(throws.code, 0);
+  EXPECT_THAT(throws.err, HasSubstr("throws, from outside: 1 "));
+  EXPECT_THAT(throws.err, HasSubstr("the last one: "));
+  EXPECT_EQ(query("good").err, "");
 }
 
 }  // namespace
