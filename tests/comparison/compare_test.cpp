@@ -156,6 +156,12 @@ TEST_F(Compare, MachinesThatDifferAreComparedByRatios) {
   EXPECT_THAT(slow_machine.machine.reasons[0], HasSubstr("'processor A' and 'processor B'"));
   ASSERT_EQ(slow_machine.timings.size(), 1U);
   EXPECT_EQ(slow_machine.timings[0].method, "certified / original");
+  SyntheticResult alone, elsewhere;
+  alone.methods = elsewhere.methods = {"certified"};
+  elsewhere.processor = "processor B";
+  const Comparison untimed = compare_results(side(alone, "a", 4), side(elsewhere, "b", 4), {});
+  EXPECT_EQ(untimed.verdict, Verdict::UNSURE);
+  EXPECT_THAT(untimed.notes, Contains(HasSubstr("no time was compared")));
   changed.slowdown = {{"certified/local update", 1.3}};
   EXPECT_EQ(compare_results(side({}, "a", 5), side(changed, "b", 5), {}).verdict, Verdict::SAME)
       << "less than what a change of machine does";
