@@ -227,9 +227,14 @@ class Arrays(Files):
         self.assertEqual(times.tolist(), [0.0, 0.5])
         np.testing.assert_allclose(poses[0], [[0.28, -0.96, 0, 1], [0.96, 0.28, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]], atol=1e-15)
         np.testing.assert_array_equal(poses[1], np.eye(4))
-        # A quaternion that was a matrix on its way is that pose.
-        box = lmdbench.Mesh(CORNERS, SIDES)
+        # Quaternions that were matrices on their way are those poses; a turn by 1e-9 rad is another one.
+        box, turns = lmdbench.Mesh(CORNERS, SIDES), poses_near(20)[0]
+        path = self.write("turns.tum", "".join("%d 0 0 3 %r %r %r %r\n" % (i, *map(float, turn)) for i, turn in enumerate(turns)))
+        poses = lmdbench.read_tum(path)[1]
         lmdbench.agreement(lmdbench.truth(box, box, path, 0.1), lmdbench.query(box, box, poses, 0.1))
+        poses[7, :3, :3] @= matrices(np.array([[0.0, 0.0, 5e-10, 1.0]]), np.zeros((1, 3)))[0, :3, :3]
+        with self.assertRaisesRegex(lmdbench.UsageError, "different poses"):
+            lmdbench.agreement(lmdbench.truth(box, box, path, 0.1), lmdbench.query(box, box, poses, 0.1))
 
     def test_names_of_files_may_hold_any_bytes(self):
         odd = os.fsdecode(os.fsencode(self.write_off("box.off", CORNERS, SIDES)).replace(b"box", b"b\xffx"))
