@@ -230,9 +230,9 @@ class Arrays(Files):
         # Quaternions that were matrices on their way are those poses; a turn by 1e-9 rad is another one.
         box, turns = lmdbench.Mesh(CORNERS, SIDES), poses_near(20)[0]
         path = self.write("turns.tum", "".join("%d 0 0 3 %r %r %r %r\n" % (i, *map(float, turn)) for i, turn in enumerate(turns)))
-        poses = lmdbench.read_tum(path)[1]
+        poses = lmdbench.read_tum(path)[1].copy()
         lmdbench.agreement(lmdbench.truth(box, box, path, 0.1), lmdbench.query(box, box, poses, 0.1))
-        poses[7, :3, :3] @= matrices(np.array([[0.0, 0.0, 5e-10, 1.0]]), np.zeros((1, 3)))[0, :3, :3]
+        poses[7, :3, :3] = poses[7, :3, :3] @ matrices(np.array([[0.0, 0.0, 5e-10, 1.0]]), np.zeros((1, 3)))[0, :3, :3]
         with self.assertRaisesRegex(lmdbench.UsageError, "different poses"):
             lmdbench.agreement(lmdbench.truth(box, box, path, 0.1), lmdbench.query(box, box, poses, 0.1))
 
