@@ -207,6 +207,7 @@ class Arrays(Files):
                  (lambda: lmdbench.Mesh(CORNERS * np.nan, SIDES), lmdbench.InputError, "vertex 0: .*not finite"),
                  (lambda: lmdbench.Mesh(CORNERS, SIDES[:0]), lmdbench.InputError, "holds no triangle"),
                  (lambda: lmdbench.Mesh(CORNERS), lmdbench.UsageError, "without triangles"),
+                 (lambda: lmdbench.Mesh([[0, 0, 0], [1, 0]], SIDES), lmdbench.UsageError, "mesh: vertices: no array"),
                  (lambda: lmdbench.Mesh(CORNERS, SIDES, planar_tolerance="much"), lmdbench.UsageError, "planar_tolerance"),
                  (lambda: lmdbench.query(7, box, np.eye(4), 0.1), lmdbench.UsageError, "int is no mesh"),
                  (lambda: lmdbench.query(box, box, np.eye(3), 0.1), lmdbench.UsageError, r"poses: has shape \(3, 3\)"),

@@ -79,7 +79,8 @@ class Mesh:
                 raise UsageError("mesh: vertices without triangles (remedy: give both, or the name of a file)")
             self._mesh = _lmdbench.Mesh.from_file(os.fspath(source), planar_tolerance)
         else:
-            self._mesh = _lmdbench.Mesh.from_arrays(np.asarray(source), np.asarray(triangles), planar_tolerance, name)
+            self._mesh = _lmdbench.Mesh.from_arrays(_array(source, f"{name}: vertices"), _array(triangles, f"{name}: triangles"),
+                                                    planar_tolerance, name)
 
     @property
     def vertices(self) -> npt.NDArray[np.float64]:
@@ -161,6 +162,13 @@ class Search:
         return LmdSets(self._search.at(chosen), chosen.times)
 
 
+def _array(values: npt.ArrayLike, name: str) -> npt.NDArray[np.generic]:
+    try:
+        return np.asarray(values)
+    except ValueError as error:  # rows of unlike lengths
+        raise UsageError(f"{name}: no array: {error} (remedy: rows of one length)") from None
+
+
 def _plain(value: object) -> object:
     """numpy's numbers as Python's, for JSON."""
     if isinstance(value, np.generic):
@@ -183,7 +191,7 @@ def as_mesh(mesh: MeshLike, name: str = "mesh") -> Mesh:
 def as_poses(poses: PosesLike) -> _lmdbench.Poses:
     if isinstance(poses, (str, os.PathLike)):
         return _lmdbench.Poses.from_tum(os.fspath(poses))
-    return _lmdbench.Poses.from_matrices(np.asarray(poses))
+    return _lmdbench.Poses.from_matrices(_array(poses, "poses"))
 
 
 def query(moving: MeshLike, fixed: MeshesLike, poses: PosesLike, cutoff: float,
@@ -260,7 +268,7 @@ def forces(sets: LmdSets, cutoff: float, maximum_force: float, *, law: str = "ex
     Raises UsageError for constants that no force can have.
     """
     return Forces(*_lmdbench.forces(sets._sets, law, float(cutoff), float(saturation_distance), float(maximum_force),
-                                    float(sharpness), np.asarray(reference, dtype=float)))
+                                    float(sharpness), _array(reference, "reference")))
 
 
 def method_names() -> list[str]:
