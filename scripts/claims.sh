@@ -17,14 +17,15 @@ cd "$ROOT"
 BUILD="${LMDBENCH_BUILD:-build/release}"
 OUT="${LMDBENCH_CLAIMS:-results/claims}"
 OTHER=results/claims-busy
+PATH_FOLDER=results/claims # claim-k1.json names its files there
 PATHS=20
 APPROACHES=5 # of 6 s each
 PYTHON="$(find_python h5py matplotlib numpy)"
-mkdir -p "$OUT"
+mkdir -p "$OUT" "$PATH_FOLDER"
 
 # The hard contact's specification with other seeds, its approaches one after another.
 make_paths() {
-  "$PYTHON" - "$OUT" "$PATHS" "$APPROACHES" <<'PYTHON_END'
+  "$PYTHON" - "$PATH_FOLDER" "$PATHS" "$APPROACHES" <<'PYTHON_END'
 import json
 import sys
 from pathlib import Path
@@ -41,7 +42,7 @@ for number in range(1, paths + 1):
         name.write_text(text, encoding="utf-8")
 PYTHON_END
   local spec file
-  for spec in "$OUT"/hard-[0-9][0-9].json; do
+  for spec in "$PATH_FOLDER"/hard-[0-9][0-9].json; do
     file="${spec%.json}.tum"
     [[ -s $file && ! $spec -nt $file ]] || "$BUILD/lmdbench" path generate "$spec" --out "$file" >/dev/null
   done

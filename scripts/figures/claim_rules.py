@@ -34,9 +34,9 @@ class Rule:
         """(lines, cells) of all settings."""
         found = Found()
         below = self.settings(found, *evidence)
-        failed = [point for one in evidence for point in getattr(one, "points", ()) if point.failure]
+        failed = [f"{point.scene}, {point.series}: {point.failure}" for one in evidence for point in getattr(one, "points", ()) if point.failure]
         if failed:
-            below = [*(below or []), "Failed, and in no other number: " + "; ".join(f"{p.scene}, {p.series}: {p.failure}" for p in failed) + ".", ""]
+            below = [*(below or []), f"Failed, and in no other number, are {len(failed)} points: {'; '.join(list(dict.fromkeys(failed))[:3])}.", ""]
         return [f"Rule: {self.rule} {self.note.format(*evidence)}".rstrip(), "", *found.table(), *(below or [])], found.cells
 
 
