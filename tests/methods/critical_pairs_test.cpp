@@ -198,6 +198,41 @@ TEST(CriticalPairs, OfASphereInACavityOfABoxAddUp) {
   }
 }
 
+/// Where a minimum and its saddle are one to the tolerance, an LMD is there already, but no basin:
+/// else a force that is shared among basins jumps for so long.
+TEST(CriticalPairs, OfALmdThatIsJustBornAreNoBasin) {
+  const Scene scene = testing::make_scene(make_blob(1.0, 0.25, 3), make_torus(1.2, 0.45, 32, 16), 0.3);
+  int newborn = 0;
+  for (const std::string& name : methods_with_critical_pairs()) {
+    const auto method = make_method(name, scene);
+    const auto at = [&](double x) {
+      const Eigen::AngleAxisd turn(0.5 + x, Vec3(0.3, 0.5, 0.8).normalized());
+      return critical_at(*method,
+                         {Vec3(0.3 + 0.4 * x, 0.1 - 0.2 * x, 1.5 - 0.1 * x), Eigen::Quaterniond(turn)});
+    };
+    const auto minima = [](const CriticalSet& set) {
+      return std::ranges::count_if(set, [](const CriticalPair& c) { return c.is_minimum; });
+    };
+    constexpr int STEPS = 60;
+    for (int step = 0; step < STEPS; ++step) {
+      double low = static_cast<double>(step) / STEPS, high = static_cast<double>(step + 1) / STEPS;
+      const auto few = minima(at(low));
+      if (minima(at(high)) == few) continue;
+      while (high - low > 1e-13) {
+        const double middle = 0.5 * (low + high);
+        (minima(at(middle)) == few ? low : high) = middle;
+      }
+      for (const double x : {low, high})
+        for (const CriticalPair& c : at(x)) {
+          if (c.index > 0 || !c.is_minimum) continue;
+          ++newborn;
+          EXPECT_FALSE(c.is_basin) << name << " at " << x << "\n" << text(at(x));
+        }
+    }
+  }
+  EXPECT_GT(newborn, 4);
+}
+
 TEST(Merges, JoinTheMinimaRoundARing) {
   // A ball over the hole of a facetted ring: minima and saddles alternate round it.
   for (const int cells : {5, 8, 13}) {

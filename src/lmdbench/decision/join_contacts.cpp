@@ -649,7 +649,8 @@ class Joining {
       return std::ranges::any_of(set, [&](std::size_t i) { return is(contacts_[i]); });
     };
     // A way down begins where a saddle is and no minimum: a birth. Saddles at minima are round a
-    // hole of the overlap, as under a washer; corners are minima only without a tilt.
+    // hole of the overlap of two faces, as under a washer; corners are minima only without a tilt.
+    const bool has_overlap = any([](const Contact& c) { return c.dimension == 2; });
     const auto is_way_down = [&](const Contact& saddle) {
       return saddle.index < 0 && !any([&](const Contact& c) {
                const bool same_moving = c.moving == saddle.moving, same_fixed = c.fixed == saddle.fixed;
@@ -658,7 +659,7 @@ class Joining {
                        (same_fixed && saddle.moving.kind == FeatureKind::VERTEX));
              });
     };
-    const bool is_basin = has_index ? (index > 0 || (is_minimum && !any(is_way_down))) &&
+    const bool is_basin = has_index ? (index > 0 || (is_minimum && has_overlap && !any(is_way_down))) &&
                                           any([](const Contact& c) { return c.is_basin; })
                                     : is_minimum;
     signs_->critical.push_back({lmd, index, is_minimum, has_index, is_basin});
