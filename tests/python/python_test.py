@@ -228,7 +228,7 @@ class Arrays(Files):
         self.assertEqual(times.tolist(), [0.0, 0.5])
         np.testing.assert_allclose(poses[0], [[0.28, -0.96, 0, 1], [0.96, 0.28, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]], atol=1e-15)
         np.testing.assert_array_equal(poses[1], np.eye(4))
-        # Quaternions that were matrices on their way are those poses; a turn by 1e-9 rad is another one.
+        # Quaternions that were matrices on their way are those poses; 1e-9 rad is another one.
         box, turns = lmdbench.Mesh(CORNERS, SIDES), poses_near(20)[0]
         path = self.write("turns.tum", "".join("%d 0 0 3 %r %r %r %r\n" % (i, *map(float, turn)) for i, turn in enumerate(turns)))
         poses = lmdbench.read_tum(path)[1].copy()
