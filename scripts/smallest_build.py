@@ -117,8 +117,10 @@ def check_messages(check, full, folder):
         for command in re.findall(r"^  ([a-z-]+) ", run(full, ["--help"], folder).stdout.split("Subcommands:")[1], re.M):
             done = run(PROGRAM, [command, "--help"], folder)
             check.that("not expected" not in done.stderr, f"the command {command} is not even known")
-    bad = {"concave.obj": ("v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 2 3 4 1\n", "convex"),
-           "index.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4"),
+    Path(folder, "concave.obj").write_text("v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 2 3 4 1\n", encoding="ascii")
+    done = run(PROGRAM, ["mesh", "info", "./concave.obj"], folder)
+    check.that(done.returncode == 0, f"concave.obj: exit code {done.returncode}, {done.stderr.strip()}")
+    bad = {"index.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4"),
            "curve.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ncurv 0 1 1 2\n", "curv"),
            "number.obj": ("v 0 0 zero\n", "line 1"), "short.obj": ("v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3")}
     for name, (text, part) in bad.items():
@@ -156,7 +158,7 @@ def main():
     linked = libraries(PROGRAM)
     check.that(not [lib for lib in linked if any(part in lib for part in LEFT_OUT)], f"links {linked}")
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("cube.obj", CUBE_OBJ), ("cube.off", CUBE_OFF), ("cube.stl", "solid\n"),
+        for name, text in (("cube.obj", CUBE_OBJ), ("cube.off", CUBE_OFF), ("cube.stl", "solid\nendsolid\n"),
                            ("apart.tum", "0 1.05 0.2 0.1 0 0 0 1\n")):
             Path(folder, name).write_text(text, encoding="ascii")
         check_queries(check, full, folder)
