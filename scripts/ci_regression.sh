@@ -91,10 +91,7 @@ build_revision() {
   tree="$(tree_of "$1")"
   [[ ! -x $tree/build/release/lmdbench ]] || return 0
   say "building $1"
-  (if [[ ! -e $tree/.git ]]; then
-    rm -rf "$tree" && git -C "$ROOT" worktree prune && git -C "$ROOT" worktree add --quiet --detach "$tree" "$1" || exit
-  fi
-  cd "$tree" && export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$tree}" CCACHE_NOHASHDIR=1 &&
+  (worktree_at "$tree" "$1" && cd "$tree" && export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$tree}" CCACHE_NOHASHDIR=1 &&
     cmake --preset release -DLMDBENCH_BUILD_TESTS=OFF -DLMDBENCH_BUILD_EXPERIMENTS=OFF -DLMDBENCH_WITH_CGAL=OFF \
       -DLMDBENCH_PRECOMPILED_HEADERS=OFF "${cmake_options[@]}" &&
     cmake --build --preset release --parallel "$JOBS" --target lmdbench) >"$out/build-$1.log" 2>&1

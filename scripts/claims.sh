@@ -61,11 +61,13 @@ part() {
   case "$1" in
     claim-k1) step "Paths" make_paths && step "$1" sweep "$1" ;;
     roles) step "$1" "$BUILD/lmdbench-study" roles --json "$OUT/roles.json" >"$OUT/roles.txt" ;;
-    bunny-cut*)
+    bunny-cut | bunny-cut-ball)
+      local moving=()
+      [[ $1 == bunny-cut ]] || moving=(--set /moving/mesh=ball)
       # What a search finds at a cutoff of a nanometre are pairs of triangles that cross.
       step "$1" run bunny-cut "$1" --set "/name=\"$1\"" --set '/methods=[{"name": "improved", "force_law": "exponential"}]' \
         --set '/force={"cutoff_m": 1e-9, "maximum_force_n": 3}' --set /driver/search_every_frames=1 --set /driver/search_latency_frames=0 \
-        --set /probes/truth/stride_frames=0 --set "/moving/mesh=\"$([[ $1 == bunny-cut ]] && echo wedge || echo ball)\""
+        --set /probes/truth/stride_frames=0 "${moving[@]}"
       ;;
     direction-memory)
       step "$1" run recorded-hard direction-memory --set '/name="direction-memory"' --set /record/lmds=true --set /driver/repetitions=2 \

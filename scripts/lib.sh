@@ -19,6 +19,13 @@ die() {
   exit "$code"
 }
 
+# worktree_at FOLDER COMMIT: makes one unless it is there. What a killed call left in its place may
+# be none: git would act on the repository around it.
+worktree_at() {
+  [[ "$(git -C "$1" rev-parse --show-toplevel 2>/dev/null)" != "$(realpath -m "$1")" ]] || return 0
+  rm -rf "$1" && git -C "$ROOT" worktree prune && git -C "$ROOT" worktree add --quiet --detach "$1" "$2"
+}
+
 # step "title" command...: runs the command (or function); `print_steps` prints title and time.
 STEP_LINES=()
 step() {

@@ -41,15 +41,9 @@ remove_tree() {
   git -C "$ROOT" worktree remove --force "$TREE" 2>/dev/null
   git -C "$ROOT" worktree prune
 }
-# What a killed call left may be no worktree: git would act on the repository around it.
-if [[ "$(git -C "$TREE" rev-parse --show-toplevel 2>/dev/null)" == "$(realpath -m "$TREE")" ]]; then
-  git -C "$TREE" checkout --quiet --force --detach "$(git -C "$ROOT" rev-parse HEAD)" ||
-    die "$EXIT_ENVIRONMENT" "$TREE cannot be brought to the commit (remedy: remove it, then git worktree prune)"
-else
-  rm -rf "$TREE"
-  git -C "$ROOT" worktree prune
-  git -C "$ROOT" worktree add --quiet --detach "$TREE" || die "$EXIT_ENVIRONMENT" "no worktree at $TREE"
-fi
+worktree_at "$TREE" HEAD || die "$EXIT_ENVIRONMENT" "no worktree at $TREE"
+git -C "$TREE" checkout --quiet --force --detach "$(git -C "$ROOT" rev-parse HEAD)" ||
+  die "$EXIT_ENVIRONMENT" "$TREE cannot be brought to the commit (remedy: remove it, then git worktree prune)"
 $keep || trap remove_tree EXIT
 
 # Fields of each mutant: name, file, from, to, test, only, equivalent; a unit separator between.

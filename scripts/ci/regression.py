@@ -122,9 +122,9 @@ class Regression:
                  for names in (base, candidate)]
         done = self.run_process([self.judge, "--quiet", "compare", "--base", *sides[0], "--candidate", *sides[1],
                                  *self.options, *options], {})
-        if done.returncode == 2 and OTHER_EXPERIMENT in done.stderr:
-            raise OtherExperiment(done.stderr.strip())
         if done.returncode == 2:
+            if OTHER_EXPERIMENT in done.stderr:
+                raise OtherExperiment(done.stderr.strip())
             sys.stderr.write(done.stderr)
             raise SystemExit(2)
         if done.returncode not in (0, 1, 4) or not done.stdout:

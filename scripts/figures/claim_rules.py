@@ -36,7 +36,7 @@ class Rule:
         below = self.settings(found, *evidence)
         failed = [f"{point.scene}, {point.series}: {point.failure}" for one in evidence for point in getattr(one, "points", ()) if point.failure]
         if failed:
-            below = [*(below or []), f"Failed, and in no other number, are {len(failed)} points: {'; '.join(list(dict.fromkeys(failed))[:3])}.", ""]
+            below = [*(below or []), f"{len(failed)} points failed and have no numbers: {'; '.join(list(dict.fromkeys(failed))[:3])}.", ""]
         return [f"Rule: {self.rule} {self.note.format(*evidence)}".rstrip(), "", *found.table(), *(below or [])], found.cells
 
 
