@@ -5,12 +5,13 @@
 import numpy as np
 
 import figure_style as style
-from intervals import poisson_interval
+from intervals import bootstrap
 from tables import table
 
 import matplotlib.pyplot as plt
 
 SERIES = ("servo", "response", "floor")
+BLOCK = 100  # instants, as in realtime/lateness.h
 MOST_POINTS = 4000  # of a line over time: more than a page is wide
 
 
@@ -39,12 +40,23 @@ class Clock:
         return {float(share): int(count) for share, count in zip(self.read("lateness/share"), self.read(f"lateness/{series}/above"))}
 
     def skipped_per_million(self, of):
-        """(rate, low, high) of instants without a turn per million instants, Poisson: of the servo loop or of the floor."""
-        groups = ("floor_before", "floor_after") if of == "floor" else (of,)
-        skipped = sum(self.attribute("skipped", name) for name in groups)
-        ticks = sum(self.read(f"{name}/asked").size for name in groups) + skipped
-        low, high = poisson_interval(skipped)
-        return tuple(1e6 * value / max(ticks, 1) for value in (skipped, low, high))
+        """(rate, low, high) of instants without a turn per million instants, of the servo loop or of the floor. They come in
+        bursts, so that the interval is by blocks of instants."""
+        missed = np.concatenate([self.missed(name) for name in (("floor_before", "floor_after") if of == "floor" else (of,))])
+        blocks = [(float(block.sum()), block.size) for block in np.array_split(missed, max(missed.size // BLOCK, 1))]
+
+        def rate(drawn):
+            return 1e6 * sum(count for count, _ in drawn) / max(sum(size for _, size in drawn), 1)
+
+        return (rate(blocks), *bootstrap(blocks, rate))
+
+    def missed(self, of):
+        """Whether each instant of a loop's grid had no turn: those between the one that a turn was for and the next turn's."""
+        asked = self.read(f"{of}/asked")
+        missed = np.ones(asked.size + int(self.attribute("skipped", of)))
+        instants = np.rint((asked - asked[:1]) / self.attribute("period_s")).astype(int)
+        missed[np.append(instants[1:], missed.size)[: asked.size] - 1] = 0.0  # a late turn is for the last instant that has come
+        return missed
 
     def refused(self):
         granted, asked, thread = (self.read(f"grants/{name}") for name in ("granted", "asked", "thread"))
@@ -81,7 +93,7 @@ def draw_timing(named):
             counts = clock.read(f"lateness/{name}/histogram").astype(float)
             share = counts / max(counts.sum(), 1.0)
             left.stairs(share, edges, fill=name == "floor", linewidth=0.9, **looks[name])
-        left.set(xscale="log", yscale="log", xlim=(0.8, 2e4), ylabel="share of the ticks")
+        left.set(xscale="log", yscale="log", xlim=(0.8, 2e4), ylabel="share of the instants")
         left.set_title(style.shortened(name_of_run), loc="left")
         left.axvline(1e6 * clock.attribute("period_s"), color=style.GREY, linewidth=0.6, linestyle=":")
         time, age, search_age = clock.ages_ms()
@@ -115,7 +127,7 @@ def lateness_table(named):
             rows, above = clock.quantiles(series), clock.above(series)
             *cells, last = map(micro, rows.values())
             lines.append([name, loop, *cells, f"{last} ({above[list(rows)[-1]]})", f"{1e6 * clock.attribute('maximum_s', f'lateness/{series}'):.0f}"])
-    return table(["run", "loop", "p50 [us]", "p95", "p99", "p99.9", "p99.99 (ticks above)", "largest"], lines)[:-1]
+    return table(["run", "loop", "p50 [us]", "p95", "p99", "p99.9", "p99.99 (instants above)", "largest"], lines)[:-1]
 
 
 def excess_table(named):

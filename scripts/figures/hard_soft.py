@@ -139,7 +139,8 @@ Both profiles go through the same meant path with the same force law and F_max. 
 simulated PHANTOM Desktop with friction and encoder counts.
 
 - *Jumps*: changes of force above a quarter of F_max from a frame to the next. *Dropouts*: frames in contact in which the force falls to zero.
-- *Energy created*: the largest net work of the rendered force; at most zero for a passive contact that begins and ends apart.
+- *Energy created*: the largest net work of the contacts, on the device and on the turn that the path gives the mesh; at most zero for passive
+  contacts that begin apart.
 
 {kinds}
 

@@ -24,8 +24,7 @@ DETAIL_AGE_FRAMES = 20  # of methods that track
 # (key, title, scale, digits) of the means of the detail table
 MEASURES = (
     ("amplitude_m", "amplitude, mm", 1e3), ("frequency_hz", "frequency, Hz", 1), ("force_above_30_hz_n", "above 30 Hz, N", 1),
-    ("energy_created_j", "energy created, mJ", 1e3), ("power_created_w", "power created, mW", 1e3),
-    ("clearance_m", "smallest clearance, mm", 1e3), ("penetration_share", "touching, % of frames", 100),
+    ("power_created_w", "power created, mW", 1e3), ("clearance_m", "smallest clearance, mm", 1e3), ("penetration_share", "touching, % of frames", 100),
     ("effective_stiffness_p99_n_per_m", "K_eff 99 %, N/m", 1), ("jumps", "jumps", 1), ("dropouts", "dropouts", 1))
 
 

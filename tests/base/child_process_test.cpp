@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -62,7 +64,31 @@ TEST(ChildProcess, MemoryIsLimited) {
 }
 
 TEST(ChildProcess, EndsWithItsOwner) {
-  ChildProcess child([](const ChildProcess::Send&) { ::pause(); }, LIMITS);
+  // Whoever has the writing end open is alive.
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  {
+    const ChildProcess child([](const ChildProcess::Send&) { ::pause(); }, LIMITS);
+  }
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    std::array<std::byte, 1> begun{};
+    ChildProcess child(
+        [&](const ChildProcess::Send& send) {
+          send(begun);
+          ::pause();
+        },
+        LIMITS);
+    child.receive(begun);
+    ::_exit(0);  // no destructor
+  }
+  ASSERT_GT(parent, 0);
+  ASSERT_EQ(::waitpid(parent, nullptr, 0), parent);
+  ::close(ends[1]);
+  pollfd reading{ends[0], POLLIN, 0};
+  EXPECT_EQ(::poll(&reading, 1, 20'000), 1);
+  EXPECT_TRUE((reading.revents & POLLHUP) != 0) << "a child is still there";
+  ::close(ends[0]);
 }
 
 }  // namespace

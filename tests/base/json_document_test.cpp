@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/message_of.h>
 
 #include <string>
 
@@ -36,12 +37,8 @@ const std::string TEXT = R"({
 })";
 
 std::string complaint_about(const std::string& text, std::vector<std::string> overrides = {}) {
-  try {
-    JsonDocument(text, "w.json", SCHEMA, ExitCode::INPUT_DATA, std::move(overrides));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::complaint_of<InputError>(
+      [&] { JsonDocument(text, "w.json", SCHEMA, ExitCode::INPUT_DATA, std::move(overrides)); });
 }
 
 TEST(LineOf, FindsValuesAndTheNearestEnclosingOneOfWhatIsMissing) {
@@ -104,12 +101,7 @@ TEST(JsonDocument, NamesNoLineForWhatAnOverrideGave) {
 TEST(JsonDocument, AddsLinesToErrorsOfThisFileOnly) {
   const JsonDocument document(TEXT, "w.json", SCHEMA, ExitCode::USAGE);
   const auto complaint = [&](const Error& thrown) {
-    try {
-      document.locate([&] { throw thrown; });
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return testing::message_of<Error>([&] { document.locate([&] { throw thrown; }); });
   };
   EXPECT_EQ(complaint(UsageError("w.json", "/name", "is odd", "mend it")),
             "w.json: /name (line 2): is odd (remedy: mend it)");

@@ -96,6 +96,7 @@ TEST_F(Override, RefusesHostileText) {
   for (int i = 0; i < 200; ++i) steps += "/x";
   EXPECT_THAT(refusal(steps + "=1"), HasSubstr("a pointer of 200 steps"));
   EXPECT_THAT(refusal("a=1"), HasSubstr("not of the form"));
+  EXPECT_THAT(refusal("/a/b"), HasSubstr("not of the form"));
   EXPECT_THAT(refusal(""), HasSubstr("not of the form"));
   EXPECT_THAT(refusal("/a~2=1"), HasSubstr("does not lead to a value"));
 }

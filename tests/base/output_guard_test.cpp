@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <support/files.h>
+#include <support/full_disk.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -21,6 +22,7 @@ namespace lmdbench {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::FullDisk;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::read_text;
@@ -103,6 +105,15 @@ TEST(AtomicFile, WritersOfOneNameDoNotMeet) {
 }
 
 TEST(AtomicFile, AFullDiskIsAnErrorAndLeavesTheOldFile) {
+  const ScratchDirectory folder;
+  write_file_atomically(folder / "out", "old");
+  {
+    const FullDisk full(1024);
+    EXPECT_THROW(write_file_atomically(folder / "out", std::string(1 << 20, 'n')), EnvironmentError);
+  }
+  EXPECT_EQ(read_text(folder / "out"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1)
+      << "no part left";
   EXPECT_THROW(write_file_atomically("/proc/no-such-file", "x"), EnvironmentError);
 }
 

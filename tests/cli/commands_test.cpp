@@ -46,14 +46,6 @@ TEST(Program, HelpAndVersionGoToStandardOutput) {
   EXPECT_THAT(version.out, StartsWith("lmdbench "));
 }
 
-TEST(Program, StandardOutputThatIsFullIsAnError) {
-  const ScratchDirectory scratch;
-  const Outcome outcome =
-      lmdbench("plan " + SHAPES + "> /dev/full 2> '" + (scratch / "err").string() + "' ; echo $?");
-  EXPECT_EQ(outcome.out, "4\n");
-  EXPECT_THAT(read_text(scratch / "err"), HasSubstr("standard output"));
-}
-
 TEST(RunCommand, WritesAResultFromAnyDirectory) {
   const ScratchDirectory scratch;
   const Outcome outcome = lmdbench("run " + SHORT_RUN, scratch.path());
@@ -248,6 +240,8 @@ TEST(StabilityCommand, NoAnswerIsItsOwnExitCodeWithARemedy) {
     EXPECT_THAT(outcome.err, HasSubstr(c.remedy));
   }
   EXPECT_EQ(lmdbench(wall).code, 0);
+  const Outcome table = lmdbench("stability '" LMDBENCH_SOURCE_DIR "/experiments/wall.json'");
+  EXPECT_THAT(table.out, AllOf(HasSubstr("certified"), HasSubstr("clean")));
 }
 
 TEST(MeshCommand, SaysWhereAMeshCrossesItselfAndIsInsideOut) {
@@ -322,6 +316,15 @@ TEST_F(QueryCommand, PrintsALineAPoseInWorldCoordinates) {
     EXPECT_TRUE(lines[1]["minimum_distance"].is_null());
     EXPECT_TRUE(lines[1]["lmds"].empty());
   }
+}
+
+TEST_F(QueryCommand, CriticalPairsAreOfMethodsThatFindThem) {
+  const std::string meshes =
+      "query --moving '" + cube() + "' --fixed '" + cube() + "' --cutoff 0.5 --critical";
+  const Outcome refused = lmdbench(meshes + " --method improved");
+  EXPECT_EQ(refused.code, USAGE);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("--critical"), HasSubstr("finds LMDs alone")));
+  EXPECT_EQ(lmdbench(meshes + " --json").code, 0);
 }
 
 TEST_F(QueryCommand, ReadsPosesFromStandardInput) {

@@ -95,13 +95,6 @@ TEST_F(HostileInput, PartFilesAreNeverLinksOrForeign) {
   EXPECT_EQ(read_text(scratch_ / "s.h5.part"), "my notes");
 }
 
-TEST_F(HostileInput, ARunReplacesItsEarlierResult) {
-  for (int i = 0; i < 2; ++i) {
-    const Outcome outcome = lmdbench("run " + SHORT + "--out " + path("r.h5"));
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-  }
-}
-
 TEST_F(HostileInput, AFullDeviceIsAnErrorForEveryCommand) {
   for (const std::string& command :
        std::vector<std::string>{"mesh info sphere --dir '" LMDBENCH_SOURCE_DIR "/meshes'",
@@ -111,6 +104,7 @@ TEST_F(HostileInput, AFullDeviceIsAnErrorForEveryCommand) {
     const Outcome outcome = lmdbench(command + " >/dev/full ; echo $?");
     EXPECT_EQ(outcome.out, "4\n") << command << outcome.err;
   }
+  EXPECT_THAT(lmdbench("plan " + SHAPES + ">/dev/full").err, HasSubstr("standard output"));
 }
 
 TEST_F(HostileInput, JsonBombs) {

@@ -97,6 +97,7 @@ TEST(NoiseFloor, DetectableIsWhatACompareWouldSay) {
 TEST(NoiseFloor, IsMeasuredInAboutTheTimeAskedFor) {
   const NoiseFloor floor = measure_noise_floor(0.3);
   EXPECT_GT(floor.seconds, 0.05);
+  EXPECT_LT(floor.seconds, 10.0);
   EXPECT_GT(floor.piece_seconds, 0.0);
   EXPECT_GE(floor.slow_excess, floor.typical_excess);
   EXPECT_GT(floor.spread, 0.0);

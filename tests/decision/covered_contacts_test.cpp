@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -35,8 +36,7 @@ TriangleMesh plate() {
 /// LMDs of contacts when none is dropped as covered.
 LmdSet joined_whole(const ShapePair& pair, ContactSet contacts) {
   for (Contact& contact : contacts.contacts) contact.is_whole = false;
-  LmdSet lmds = testing::joined(pair, contacts);
-  return lmds;
+  return testing::joined(pair, contacts);
 }
 
 std::size_t covered(const ShapePair& pair, ContactSet contacts) {
@@ -144,24 +144,13 @@ TEST(CoveredContacts, APolygonOverOneLegDoesNotSpeakForTheOther) {
 
 TEST(CoveredContacts, WithoutAPairOfPointsThereIsNoLmd) {
   // The recess is level to the tolerance, but all round its border the distance decreases.
-  const TriangleMesh recess = testing::make_voxels({{0, 0, 0},
-                                                    {1, 0, 0},
-                                                    {2, 0, 0},
-                                                    {0, 1, 0},
-                                                    {2, 1, 0},
-                                                    {0, 2, 0},
-                                                    {1, 2, 0},
-                                                    {2, 2, 0},
-                                                    {0, 0, 1},
-                                                    {1, 0, 1},
-                                                    {2, 0, 1},
-                                                    {0, 1, 1},
-                                                    {1, 1, 1},
-                                                    {2, 1, 1},
-                                                    {0, 2, 1},
-                                                    {1, 2, 1},
-                                                    {2, 2, 1}});
-  ShapeScene scene(at_plane(recess, true), at_plane(make_box({9.0, 9.0, 1.0}), false), 3.0);
+  std::set<testing::Voxel> recess;
+  for (int x = 0; x < 3; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 2; ++z) recess.insert({x, y, z});
+  recess.erase(testing::Voxel{1, 1, 0});
+  ShapeScene scene(at_plane(testing::make_voxels(recess), true), at_plane(make_box({9.0, 9.0, 1.0}), false),
+                   3.0);
   const ShapePair pair = scene.at(moved(0.0, 0.0, 0.5));
   ContactSet contacts = scene.contacts(pair);
   take_covered(pair, contacts.contacts);

@@ -349,7 +349,7 @@ TEST(Decide, SaddlesPitsAndReflexChainsShareNothing) {
   const ShapeComplex shape = ShapeComplex::of(surface);
   ShapeScene scene(on_a_corner(), make_l_block(1.0));
   std::mt19937_64 random(8);
-  std::size_t contacts = 0;
+  std::size_t contacts = 0, edges = 0;
   for (int i = 0; i < 200; ++i) {
     Pose pose = testing::pose_of_seed(random());
     pose.translation *= 2.0;
@@ -359,6 +359,7 @@ TEST(Decide, SaddlesPitsAndReflexChainsShareNothing) {
     contacts += set.contacts.size();
     for (const Contact& c : set.contacts) {
       if (c.fixed.kind != FeatureKind::EDGE) continue;
+      ++edges;
       const auto triangles = surface.adjacency.edge_triangles[shape.lead_of_chain(c.fixed.index)];
       const Vec3 n0 = surface.face_normals[static_cast<std::size_t>(triangles[0])];
       const Triangle other = surface.mesh.triangle(triangles[1]);
@@ -369,6 +370,7 @@ TEST(Decide, SaddlesPitsAndReflexChainsShareNothing) {
     }
   }
   EXPECT_GT(contacts, 50u);
+  EXPECT_GT(edges, 5u);
 }
 
 TEST(Decide, PlacesThatCoincideHaveTheContactsOfThoseThatTouch) {

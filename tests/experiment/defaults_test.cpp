@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/summary.h>
 #include <lmdbench/motion/tum_file.h>
@@ -67,13 +68,14 @@ TEST(Defaults, WhatTheFileSaysIsNoDefault) {
 
 TEST(Defaults, DenseMeshesGetACutoffOfTenEdges) {
   std::vector<DefaultNote> notes;
-  const Experiment experiment =
-      two_meshes(R"({"mesh": "plate", "diagonal_m": 0.1})", R"({"mesh": "plate", "diagonal_m": 0.1})");
-  const Scene scene = load_scene(experiment).scene;
-  const double cutoff = default_cutoff(scene, notes);
-  const double edge = mean_edge_length(scene.moving->surface().mesh);
-  EXPECT_NEAR(cutoff, std::min(0.002, 10.0 * edge), 0.01 * cutoff);
+  // Small balls that are far apart: ten edges are less than 2 % of the diagonal.
+  const TriangleMesh ball = make_sphere(1e-4, 2);
+  const TriangleMesh balls = merged(ball, translated(ball, Vec3(0.1, 0.0, 0.0)));
+  const auto body = std::make_shared<const Body>("balls", build_surface(balls));
+  const double cutoff = default_cutoff({body, {body}, 0.0}, notes);
+  EXPECT_NEAR(cutoff, 10.0 * mean_edge_length(balls), 0.01 * cutoff);
   EXPECT_EQ(notes.front().key, "/force/cutoff_m");
+  EXPECT_THAT(notes.front().from, HasSubstr("mean edges of the coarser mesh"));
 }
 
 TEST(Defaults, TheyAreInTheSummaryAndTheScene) {

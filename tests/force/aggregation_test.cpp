@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/message_of.h>
 
 #include <cmath>
 
@@ -38,13 +39,9 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-15) {
 TEST(Aggregation, UnknownNameIsAnError) {
   EXPECT_EQ(aggregations().front().name, "sum");
   for (const Aggregation& law : aggregations()) EXPECT_EQ(aggregation_named(law.name).combine, law.combine);
-  try {
-    aggregation_named("shard", "my.json", "/force/aggregation");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/force/aggregation"));
-    EXPECT_THAT(error.what(), HasSubstr("sum, signed, shared"));
-  }
+  EXPECT_THAT(
+      testing::message_of<UsageError>([] { aggregation_named("shard", "my.json", "/force/aggregation"); }),
+      ::testing::AllOf(HasSubstr("/force/aggregation"), HasSubstr("sum, signed, shared")));
   EXPECT_THROW(force_law_named("cubic"), UsageError);
   for (const ForceLaw law : force_laws()) EXPECT_EQ(force_law_named(to_string(law)), law);
 }

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/message_of.h>
 
 #include <cmath>
 #include <limits>
@@ -118,13 +119,8 @@ TEST(ForceLaw, UnsetDistanceStaysVisible) {
 }
 
 std::string complaint_about(const ForceProfile& profile) {
-  try {
-    validate_force_profile(profile, "hard.json", "/force/improved");
-  } catch (const UsageError& error) {
-    EXPECT_EQ(error.code(), ExitCode::USAGE);
-    return error.what();
-  }
-  return "";
+  return testing::complaint_of<UsageError>(
+      [&] { validate_force_profile(profile, "hard.json", "/force/improved"); });
 }
 
 TEST(ForceProfile, ValidationNamesTheField) {

@@ -29,9 +29,10 @@ TriangleFeature unpermuted(TriangleFeature feature, const std::array<int, 3>& or
 const Triangle FLOOR{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
 /// FLOOR and a triangle with a known answer, checked under all 72 orders of corners and arguments.
-void expect_known(const Triangle& other, double distance, const Vec3& on_floor, const Vec3& on_other,
-                  TriangleFeature of_floor, TriangleFeature of_other, int dimension = 0, double measure = 0.0,
-                  bool intersecting = false) {
+void expect_known(const char* name, const Triangle& other, double distance, const Vec3& on_floor,
+                  const Vec3& on_other, TriangleFeature of_floor, TriangleFeature of_other, int dimension = 0,
+                  double measure = 0.0, bool intersecting = false) {
+  SCOPED_TRACE(name);
   for (const auto& order_a : PERMUTATIONS) {
     for (const auto& order_b : PERMUTATIONS) {
       for (const bool swap : {false, true}) {
@@ -53,76 +54,40 @@ void expect_known(const Triangle& other, double distance, const Vec3& on_floor, 
   }
 }
 
-TEST(TriangleDistance, VertexToVertex) {
-  expect_known({Vec3(-3, 0, 4), Vec3(-9, 0, 5), Vec3(-9, 1, 9)}, 5.0, Vec3(0, 0, 0), Vec3(-3, 0, 4),
-               TriangleFeature::V0, TriangleFeature::V0);
-}
-
-TEST(TriangleDistance, VertexToEdge) {
-  expect_known({Vec3(2, -3, 4), Vec3(1, -9, 5), Vec3(3, -9, 9)}, 5.0, Vec3(2, 0, 0), Vec3(2, -3, 4),
-               TriangleFeature::E0, TriangleFeature::V0);
-}
-
-TEST(TriangleDistance, VertexToFace) {
-  expect_known({Vec3(1, 1, 3), Vec3(2, 1, 4), Vec3(1, 2, 5)}, 3.0, Vec3(1, 1, 0), Vec3(1, 1, 3),
-               TriangleFeature::FACE, TriangleFeature::V0);
-}
-
-TEST(TriangleDistance, EdgeToEdge) {
-  expect_known({Vec3(2, -1, -1), Vec3(2, -1, 1), Vec3(3, -9, 0)}, 1.0, Vec3(2, 0, 0), Vec3(2, -1, 0),
-               TriangleFeature::E0, TriangleFeature::E0);
-}
-
-TEST(TriangleDistance, AnExactTieGoesToTheLowestDimension) {
-  // The corner (2, 0, 3) is exactly over the edge, (0, 0, 3) exactly over the corner.
-  expect_known({Vec3(2, 0, 3), Vec3(3, 0, 4), Vec3(2, 1, 5)}, 3.0, Vec3(2, 0, 0), Vec3(2, 0, 3),
-               TriangleFeature::E0, TriangleFeature::V0);
-  expect_known({Vec3(0, 0, 3), Vec3(1, 0, 4), Vec3(0, 1, 5)}, 3.0, Vec3(0, 0, 0), Vec3(0, 0, 3),
-               TriangleFeature::V0, TriangleFeature::V0);
-}
-
-TEST(TriangleDistance, ParallelEdgesAreAnsweredByTheMiddleOfTheOverlap) {
-  expect_known({Vec3(1, -2, 0), Vec3(9, -2, 0), Vec3(3, -5, 0)}, 2.0, Vec3(2.5, 0, 0), Vec3(2.5, -2, 0),
-               TriangleFeature::E0, TriangleFeature::E0, 1, 3.0);
-}
-
-TEST(TriangleDistance, AnEdgeParallelToAFaceIsAnsweredByTheMiddleOfTheOverlap) {
-  expect_known({Vec3(1, -1, 2), Vec3(1, 9, 2), Vec3(1, 1, 8)}, 2.0, Vec3(1, 1.5, 0), Vec3(1, 1.5, 2),
-               TriangleFeature::FACE, TriangleFeature::E0, 1, 3.0);
-}
-
-TEST(TriangleDistance, ParallelFacesAreAnsweredByTheCentroidOfTheOverlap) {
+TEST(TriangleDistance, OfPairsWhoseAnswerIsKnown) {
+  using enum TriangleFeature;
+  expect_known("corner to corner", {Vec3(-3, 0, 4), Vec3(-9, 0, 5), Vec3(-9, 1, 9)}, 5.0, {0, 0, 0},
+               {-3, 0, 4}, V0, V0);
+  expect_known("corner to edge", {Vec3(2, -3, 4), Vec3(1, -9, 5), Vec3(3, -9, 9)}, 5.0, {2, 0, 0}, {2, -3, 4},
+               E0, V0);
+  expect_known("corner to face", {Vec3(1, 1, 3), Vec3(2, 1, 4), Vec3(1, 2, 5)}, 3.0, {1, 1, 0}, {1, 1, 3},
+               FACE, V0);
+  expect_known("edge to edge", {Vec3(2, -1, -1), Vec3(2, -1, 1), Vec3(3, -9, 0)}, 1.0, {2, 0, 0}, {2, -1, 0},
+               E0, E0);
+  // A tie goes to the lowest dimension.
+  expect_known("corner exactly over the edge", {Vec3(2, 0, 3), Vec3(3, 0, 4), Vec3(2, 1, 5)}, 3.0, {2, 0, 0},
+               {2, 0, 3}, E0, V0);
+  expect_known("corner exactly over the corner", {Vec3(0, 0, 3), Vec3(1, 0, 4), Vec3(0, 1, 5)}, 3.0,
+               {0, 0, 0}, {0, 0, 3}, V0, V0);
+  // Parallel features are answered by the middle of their overlap.
+  expect_known("parallel edges", {Vec3(1, -2, 0), Vec3(9, -2, 0), Vec3(3, -5, 0)}, 2.0, {2.5, 0, 0},
+               {2.5, -2, 0}, E0, E0, 1, 3.0);
+  expect_known("edge parallel to a face", {Vec3(1, -1, 2), Vec3(1, 9, 2), Vec3(1, 1, 8)}, 2.0, {1, 1.5, 0},
+               {1, 1.5, 2}, FACE, E0, 1, 3.0);
   // The overlap is the unit square with its far corners at (1, 1) and (2, 2).
-  expect_known({Vec3(2, 2, 1), Vec3(2, -2, 1), Vec3(-2, 2, 1)}, 1.0, Vec3(1, 1, 0), Vec3(1, 1, 1),
-               TriangleFeature::FACE, TriangleFeature::FACE, 2, 4.0);
-  // One triangle is inside the other's projection: its own centroid.
-  expect_known({Vec3(1, 1, 1), Vec3(1.75, 1, 1), Vec3(1, 1.75, 1)}, 1.0, Vec3(1.25, 1.25, 0),
-               Vec3(1.25, 1.25, 1), TriangleFeature::FACE, TriangleFeature::FACE, 2, 0.28125);
-}
-
-TEST(TriangleDistance, PiercingTrianglesShareAPoint) {
-  expect_known({Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, -9, 0)}, 0.0, Vec3(1.1, 0.5, 0), Vec3(1.1, 0.5, 0),
-               TriangleFeature::FACE, TriangleFeature::FACE, 1, std::hypot(0.2, 1.0), true);
-}
-
-TEST(TriangleDistance, ASharedCornerIsThatCorner) {
-  expect_known({Vec3(0, 0, 0), Vec3(-3, 0, 1), Vec3(0, -3, 1)}, 0.0, Vec3(0, 0, 0), Vec3(0, 0, 0),
-               TriangleFeature::V0, TriangleFeature::V0, 0, 0.0, true);
-}
-
-TEST(TriangleDistance, ASharedEdgeIsItsMiddle) {
-  expect_known({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, -3, 1)}, 0.0, Vec3(2, 0, 0), Vec3(2, 0, 0),
-               TriangleFeature::E0, TriangleFeature::E0, 1, 4.0, true);
-}
-
-TEST(TriangleDistance, ACornerThatTouchesAFaceIsThatCorner) {
-  expect_known({Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)}, 0.0, Vec3(1, 1, 0), Vec3(1, 1, 0),
-               TriangleFeature::FACE, TriangleFeature::V0, 0, 0.0, true);
-}
-
-TEST(TriangleDistance, IdenticalTrianglesShareTheirCentroid) {
-  expect_known(FLOOR, 0.0, Vec3(4, 4, 0) / 3.0, Vec3(4, 4, 0) / 3.0, TriangleFeature::FACE,
-               TriangleFeature::FACE, 2, 8.0, true);
+  expect_known("parallel faces", {Vec3(2, 2, 1), Vec3(2, -2, 1), Vec3(-2, 2, 1)}, 1.0, {1, 1, 0}, {1, 1, 1},
+               FACE, FACE, 2, 4.0);
+  expect_known("face over a part of a face", {Vec3(1, 1, 1), Vec3(1.75, 1, 1), Vec3(1, 1.75, 1)}, 1.0,
+               {1.25, 1.25, 0}, {1.25, 1.25, 1}, FACE, FACE, 2, 0.28125);
+  expect_known("piercing", {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(3, -9, 0)}, 0.0, {1.1, 0.5, 0}, {1.1, 0.5, 0},
+               FACE, FACE, 1, std::hypot(0.2, 1.0), true);
+  expect_known("shared corner", {Vec3(0, 0, 0), Vec3(-3, 0, 1), Vec3(0, -3, 1)}, 0.0, {0, 0, 0}, {0, 0, 0},
+               V0, V0, 0, 0.0, true);
+  expect_known("shared edge", {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, -3, 1)}, 0.0, {2, 0, 0}, {2, 0, 0}, E0,
+               E0, 1, 4.0, true);
+  expect_known("corner on a face", {Vec3(1, 1, 0), Vec3(2, 1, 4), Vec3(1, 2, 5)}, 0.0, {1, 1, 0}, {1, 1, 0},
+               FACE, V0, 0, 0.0, true);
+  expect_known("identical", FLOOR, 0.0, Vec3(4, 4, 0) / 3.0, Vec3(4, 4, 0) / 3.0, FACE, FACE, 2, 8.0, true);
 }
 
 TEST(TriangleDistance, CornersAreBitCopies) {

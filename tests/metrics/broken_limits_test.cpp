@@ -78,12 +78,6 @@ TEST(Acceptance, LimitsMayBeForSomeMethodsOnly) {
   EXPECT_THAT(broken(R"({"recall": 0.5, "methods": ["improved"]})"), IsEmpty());
 }
 
-TEST(Acceptance, WhatWasNotMeasuredBreaksItsLimit) {
-  RunSummary unmeasured = summary();
-  unmeasured.methods[1].recall = UNSET;
-  EXPECT_EQ(broken_limits(with_limits(R"({"recall": 0})").acceptance, unmeasured).size(), 1u);
-}
-
 TEST(Acceptance, LimitsOnWhatIsNotProbedAreRefused) {
   const auto message = [](const std::string& limits, const Override& override) {
     return testing::message_of<UsageError>([&] { with_limits(limits, {override}); });

@@ -147,11 +147,5 @@ TEST(StepNumbers, StepsToFramesThatIntersectAreNotJudged) {
   EXPECT_NEAR(numbers.true_force_mean_n, 2.0 * (1.0 - 0.01025 / CUTOFF), 1e-6);
 }
 
-TEST(StepNumbers, HaveNamesOfTheirOwn) {
-  std::set<std::string_view> names;
-  for (const StepNumber& number : step_numbers())
-    EXPECT_TRUE(names.insert(number.name).second) << number.name;
-}
-
 }  // namespace
 }  // namespace lmdbench

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/message_of.h>
 
 #include <numbers>
 #include <optional>
@@ -38,13 +39,9 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 std::string spec_complaint(const std::string& text) {
-  try {
-    parse_path_spec(text, "spec.json");
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("remedy: "));
-    return error.what();
-  }
-  return "";
+  const std::string complaint = testing::message_of<UsageError>([&] { parse_path_spec(text, "spec.json"); });
+  EXPECT_THAT(complaint, HasSubstr("remedy: "));
+  return complaint;
 }
 
 TEST(PathSpec, ReadsEveryKey) {

@@ -67,6 +67,12 @@ RC_GTEST_PROP(StabilityBoundary, EigenvaluesLeaveTheCircleThere, ()) {
   RC_ASSERT(spectral_radius(sampled, critical * 1.001) > 1.0);
 }
 
+TEST(StabilityBoundary, ADamperOfAGripWithoutASpringIsNone) {
+  SampledLoop undamped = loop(0.04, 0.0, 1e-3, 0);
+  undamped.dynamics.hand = Hand{"custom", 0.5, 0.0, 100.0, 5.0, 0.0};
+  EXPECT_EQ(critical_stiffness(undamped), 0.0) << "the hand is rigidly attached";
+}
+
 TEST(StabilityBoundary, EveryKnownHandIsOnTheBoundary) {
   for (const KnownHand& known : known_hands()) {
     for (const std::int64_t delay : {0, 1, 7}) {

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/message_of.h>
+#include <support/scenes.h>
 #include <support/scratch_directory.h>
 #include <support/source_directory.h>
 
@@ -27,6 +28,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::make_scene;
 using testing::ScratchDirectory;
 using Json = nlohmann::json;
 
@@ -241,19 +243,11 @@ TEST_F(InitTest, ThePathShowsSeveralContactsWhereASeedDoes) {
   EXPECT_GE(median_of(run_experiment(load_experiment(made_file.experiment_file, quick))), 2.0);
 }
 
-Scene scene_of(TriangleMesh moving, TriangleMesh fixed, double cutoff) {
-  Scene scene;
-  scene.moving = std::make_shared<const Body>("moving", build_surface(std::move(moving)));
-  scene.fixed = {std::make_shared<const Body>("fixed", build_surface(std::move(fixed)))};
-  scene.cutoff = cutoff;
-  return scene;
-}
-
 TEST(RestingPose, RestsHalfWayAndDoesNotSlide) {
   const ForceProfile profile{
       .cutoff = 0.02, .saturation_distance = 0.002, .maximum_force = 1.0, .sharpness = 4.0};
   const RestingPose rest =
-      find_resting_pose(scene_of(make_box({1, 1, 1}), make_box({2, 2, 0.5}), 0.02), profile);
+      find_resting_pose(make_scene(make_box({1, 1, 1}), make_box({2, 2, 0.5}), 0.02), profile);
   EXPECT_NEAR(rest.gap, 0.011, 1e-5);
   EXPECT_GT(rest.stiffness_n_per_m, 0.0);
   EXPECT_FALSE(rest.slides());
@@ -266,14 +260,14 @@ TEST(RestingPose, ContactsFromAllSidesGoFirst) {
   TriangleMesh groove =
       merged(translated(make_box({1, 3, 1}), {-0.8, 0, 0}), translated(make_box({1, 3, 1}), {0.8, 0, 0}));
   const ForceProfile profile{.cutoff = 0.3, .maximum_force = 1.0, .sharpness = 4.0};
-  const RestingPose rest = find_resting_pose(scene_of(make_sphere(0.5, 2), groove, 0.3), profile);
+  const RestingPose rest = find_resting_pose(make_scene(make_sphere(0.5, 2), groove, 0.3), profile);
   EXPECT_GE(rest.contacts, 2u);
   EXPECT_FALSE(rest.slides());
 }
 
 TEST(RestingPose, MeshesWithoutContactsAreAnError) {
   const ForceProfile profile{.cutoff = 0.1, .maximum_force = 1.0};
-  EXPECT_THROW(find_resting_pose(scene_of(inside_out(make_sphere(1, 2)), make_sphere(1, 2), 0.1), profile),
+  EXPECT_THROW(find_resting_pose(make_scene(inside_out(make_sphere(1, 2)), make_sphere(1, 2), 0.1), profile),
                InputError);
 }
 

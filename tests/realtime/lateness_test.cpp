@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/realtime/lateness.h>
+#include <lmdbench/result/write_result.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -71,6 +73,36 @@ TEST(Lateness, ExcessIsADifferenceWithAnInterval) {
   EXPECT_EQ(itself.value, 0.0);
   EXPECT_LT(itself.low, 0.0);
   EXPECT_GT(itself.high, 0.0) << "a loop compared with itself is not without doubt";
+}
+
+TEST(Lateness, InstantsThatALateTickSkippedHaveWaitedForIt) {
+  constexpr std::int64_t US = 1000, MS = 1'000'000;
+  RealtimeRecord clock;
+  clock.period = MS;
+  RoleRecord& servo = clock.roles.emplace_back();
+  servo.name = "servo";
+  servo.times = {{0, MS, 11 * MS}, {10 * US, 10 * MS + 500 * US, 11 * MS}, {20 * US, 11 * MS, 11 * MS}, 9};
+  const auto lateness = realtime_json({clock}).at(0)["lateness"];
+  // Twelve instants: at 0, from 1 to 10 ms, all served at 10.5 ms, and at 11 ms.
+  EXPECT_NEAR(lateness["servo"][0]["value_s"].get<double>(), 3.5e-3, 1e-12) << "the sixth";
+  EXPECT_NEAR(lateness["servo"][2]["value_s"].get<double>(), 9.5e-3, 1e-12);
+  EXPECT_NEAR(lateness["response"][2]["value_s"].get<double>(), 10e-3, 1e-12);
+}
+
+TEST(Lateness, WarningsTellWhatTheClockLacked) {
+  RealtimeRecord clock;
+  clock.label = "certified";
+  clock.roles.emplace_back();
+  EXPECT_TRUE(realtime_warnings(clock).empty());
+  clock.grants = {{"servo", "locked memory", false, "no right"}, {"servo", "core 1", true, ""}};
+  clock.frame_source = {FrameSource::TICK, FrameSource::SKIPPED, FrameSource::LOST, FrameSource::LOST};
+  clock.lmd_lists_lost = 3;
+  const std::vector<std::string> warnings = realtime_warnings(clock);
+  ASSERT_EQ(warnings.size(), 4u);
+  EXPECT_EQ(warnings[0], "certified: servo: locked memory was refused: no right");
+  EXPECT_TRUE(warnings[1].starts_with("certified: 1 frames without a tick"));
+  EXPECT_TRUE(warnings[2].starts_with("certified: 2 frames lost"));
+  EXPECT_TRUE(warnings[3].starts_with("certified: 3 LMD lists lost"));
 }
 
 TEST(Lateness, NothingIsKnownOfNoSamples) {

@@ -84,9 +84,8 @@ TEST(Overload, ABusyNeighbourOfTheSamePriorityCostsTicksThatAreCounted) {
   const auto& grants = run.clocks[0].grants;
   const bool all =
       std::all_of(grants.begin(), grants.end(), [](const Grant& grant) { return grant.granted; });
-  if (all) {
-    EXPECT_GT(count_frames(run.clocks[0]).skipped, 20);
-  }
+  if (!all) GTEST_SKIP() << "the system grants no real-time priority";
+  EXPECT_GT(count_frames(run.clocks[0]).skipped, 20);
 }
 
 TEST(Overload, AServoLoopThatIsTooSlowSkipsAndKeepsItsGrid) {

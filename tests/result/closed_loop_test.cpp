@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,32 @@ TEST(DevicePoses, OrientationIsThePathsAndThePositionInWholeCounts) {
   EXPECT_EQ(start.position.x(), 0.0);
   EXPECT_EQ(poses.pose().rotation.x(), 1.0);
   EXPECT_NEAR(poses.pose().translation.x(), 2e-6, 1e-18) << "2.4 micrometres";
+}
+
+/// The path turns a cube over the slab by 10 degrees, until its edge presses, and back.
+TEST(ClosedLoop, ATurnOfThePathIsNoEnergyOfTheContact) {
+  const ScratchDirectory scratch;
+  Path path;
+  for (int i = 0; i <= 200; ++i) {
+    const double angle = std::sin(std::numbers::pi * i / 200.0) * std::numbers::pi / 18.0;
+    path.push_back(
+        {0.01 * i, {Vec3(0.0, 0.0, 0.13487), Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitY()))}});
+  }
+  write_tum(scratch / "turn.tum", path);
+  const std::vector<Override> turned{R"(/moving={"mesh":"cube","diagonal_m":0.1})",
+                                     "/path/file=" + (scratch / "turn.tum").string(),
+                                     "/frames=2001",
+                                     "/force/cutoff_m=0.005",
+                                     "/force/maximum_force_n=1",
+                                     "/loop/push_n=[0, 0, 0]",
+                                     "/loop/hand=postural-arm"};
+  const Experiment experiment = load_experiment(testing::WALL_FILE, turned);
+  const RunResult run = run_experiment(experiment);
+  double largest_work = 0.0;
+  for (const LoopFrame& frame : run.records[0].loop)
+    largest_work = std::max(largest_work, frame.energy.rendered);
+  EXPECT_GT(largest_work, 3e-4) << "the turn lifts the device";
+  EXPECT_LT(summarise(experiment, run).methods[0].energy_created_j, 0.02 * largest_work);
 }
 
 /// Six actuated degrees of freedom: the tip, 50 mm beside the held point, meets the slab and turns.

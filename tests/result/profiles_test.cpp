@@ -207,6 +207,12 @@ TEST(Rendering, BuzzingIsWhatIsAbove30Hertz) {
   EXPECT_NEAR(buzz(200.0), std::numbers::sqrt2 / 2.0, 0.01);
   EXPECT_NEAR(buzz(30.0), 0.5, 0.01) << "the filter's corner";
   EXPECT_LT(buzz(3.0), 0.01);
+  MethodRecord rest;
+  rest.frames.resize(500);
+  for (FrameRecord& frame : rest.frames) frame.force.z() = 3.0;
+  MethodSummary summary;
+  summarise_rendering(summary, rest, {std::vector<bool>(500, true), 1000.0, 1.0});
+  EXPECT_LT(summary.force_above_30_hz_n, 1e-12) << "a run that begins in contact is no blow";
 }
 
 TEST(Rendering, EnergiesAreTheLoops) {
@@ -220,6 +226,10 @@ TEST(Rendering, EnergiesAreTheLoops) {
   summarise_rendering(summary, record, {std::vector<bool>(1000, true), 1000.0, 1.0});
   EXPECT_EQ(summary.energy_created_j, 0.25);
   EXPECT_NEAR(summary.energy_balance_error, 0.5e-9, 1e-15);
+  MethodSummary among_movers;
+  summarise_rendering(among_movers, record,
+                      {std::vector<bool>(1000, true), 1000.0, 1.0, {.others_move = true}});
+  EXPECT_TRUE(std::isnan(among_movers.energy_created_j)) << "what moves gives energy, too";
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
 using testing::SHAPES_FILE;
+using ::testing::StartsWith;
 
 /// The shapes experiment up to its first contact, so that the tests stay quick.
 Experiment short_shapes(std::vector<Override> overrides = {}) {
@@ -166,12 +167,7 @@ TEST(Run, ResultHasTheContractsShapes) {
   EXPECT_TRUE(result.has("/provenance/plan"));
   EXPECT_EQ(result.strings("/provenance/inputs/role"), std::vector<std::string>{"path"})
       << "shapes are generated";
-}
-
-TEST(Run, UnsetValuesAreNaN) {
-  const ScratchDirectory scratch;
-  run_to(scratch / "r.h5", short_shapes());
-  const OpenResult result(scratch / "r.h5");
+  // Unset values are NaN.
   EXPECT_TRUE(std::isnan(result.doubles("/methods/improved/lmd_age")[0])) << "nothing has arrived in frame 0";
   EXPECT_DOUBLE_EQ(result.doubles("/methods/improved/lmd_age")[20], 0.02);
   EXPECT_TRUE(std::isnan(result.doubles("/methods/improved/minimum_distance")[0]));
@@ -354,9 +350,9 @@ TEST(Prepare, RefusesWhatCannotBeUsed) {
   };
   EXPECT_THAT(message({"/path/file=" + (scratch / "long.tum").string(), "/frames=20000000"}),
               HasSubstr("lasts 1e+12 s"));
-  EXPECT_THAT(message({"/moving/mesh=no-such-mesh"}), HasSubstr("3 "));
-  EXPECT_THAT(message({"/moving/mesh=./no/such.off"}), HasSubstr("3 "));
-  EXPECT_THAT(message({"/device=phantom-desk"}), HasSubstr("2 "));
+  EXPECT_THAT(message({"/moving/mesh=no-such-mesh"}), StartsWith("3 "));
+  EXPECT_THAT(message({"/moving/mesh=./no/such.off"}), StartsWith("3 "));
+  EXPECT_THAT(message({"/device=phantom-desk"}), StartsWith("2 "));
   EXPECT_THAT(message({R"(/force={"cutoff_diagonal":0.01,"saturation_m":0.5,"maximum_force_n":1})"}),
               HasSubstr("/force/saturation_m: saturation at 0.5 m"));
 }
@@ -369,6 +365,7 @@ TEST(Summary, ShowsErrorsBesideTimes) {
   EXPECT_GT(summary.frames_in_contact, 20);
   EXPECT_LT(summary.frames_in_contact, 320);
   const std::string text = summary_text(summary);
+  ASSERT_THAT(text, HasSubstr("time   local update"));
   EXPECT_LT(text.find("error  recall"), text.find("time   local update"));
   EXPECT_THAT(text, HasSubstr("force error ")) << "a force alone would be taken for one";
 }

@@ -219,9 +219,13 @@ TEST(SceneKinds, AMoverFeelsUnderEveryAggregationWhatTheMovingMeshOfThatSceneFee
     const RunResult run = run_scene({R"("mesh":"ball","diagonal_m":0.2)"}, {TORUS},
                                     {BLOB, R"("path":{"file":"../paths/shapes.tum"})"},
                                     {metres + aggregation + "\"}", "/path/file=" + far});
-    for (std::size_t frame = 0; frame < alone.size(); ++frame)
+    double largest = 0.0;
+    for (std::size_t frame = 0; frame < alone.size(); ++frame) {
       EXPECT_LT((run.records.front().movers[2 * frame + 1].force - alone[frame]).norm(), 1e-7)
           << aggregation << ", frame " << frame;
+      largest = std::max(largest, alone[frame].norm());
+    }
+    EXPECT_GT(largest, 0.01) << aggregation;
   }
 }
 
@@ -236,9 +240,14 @@ TEST(SceneKinds, OnTheClockFramesAreThoseOfLockstep) {
                           clocked = forces_of(run_scene({BLOB, BENDS}, {TORUS}, {BALLS}, clock));
   ASSERT_EQ(lockstep.size(), clocked.size());
   // A late tick skips its period.
-  std::size_t same = 0;
-  for (std::size_t i = 0; i < lockstep.size(); ++i) same += lockstep[i] == clocked[i] ? 1 : 0;
-  EXPECT_GT(2 * same, IS_SANITIZED ? 0 : lockstep.size()) << "a sanitizer makes most ticks late";
+  std::size_t same = 0, pressed = 0;
+  for (std::size_t i = 0; i < lockstep.size(); ++i) {
+    if (lockstep[i].isZero(0.0)) continue;
+    ++pressed;
+    same += lockstep[i] == clocked[i] ? 1 : 0;
+  }
+  EXPECT_GT(pressed, 5u);
+  EXPECT_GT(2 * same, IS_SANITIZED ? 0 : pressed) << "a sanitizer makes most ticks late";
 }
 
 TEST(SceneKinds, WhoListsMoversInAnotherOrderGetsTheSameBits) {
@@ -248,7 +257,9 @@ TEST(SceneKinds, WhoListsMoversInAnotherOrderGetsTheSameBits) {
   std::vector<Override> one = shared, other = shared;
   one.push_back("/movers=[" + first + "," + second + "]");
   other.push_back("/movers=[" + second + "," + first + "]");
-  EXPECT_EQ(forces_of(run_scene({BLOB}, {TORUS}, {}, one)), forces_of(run_scene({BLOB}, {TORUS}, {}, other)));
+  const std::vector<Vec3> forces = forces_of(run_scene({BLOB}, {TORUS}, {}, one));
+  EXPECT_EQ(forces, forces_of(run_scene({BLOB}, {TORUS}, {}, other)));
+  EXPECT_TRUE(std::ranges::any_of(forces, [](const Vec3& force) { return force.norm() > 0.0; }));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <support/files.h>
+#include <support/message_of.h>
 #include <support/scratch_directory.h>
 
 #include <cstdint>
@@ -46,12 +47,7 @@ std::filesystem::path write_result(const std::filesystem::path& file) {
 
 /// The error message of reading a file; empty if it can be read.
 std::string refusal(const std::filesystem::path& file) {
-  try {
-    const ResultReader reader(file);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return testing::complaint_of<InputError>([&] { const ResultReader reader(file); });
 }
 
 TEST(ContentHash, IsTheShaOfTheBytesWithoutItself) {

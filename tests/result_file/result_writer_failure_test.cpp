@@ -8,11 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <result_file/result_reading.h>
+#include <support/full_disk.h>
 #include <support/message_of.h>
-#include <sys/resource.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -23,6 +22,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using testing::FullDisk;
 using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
@@ -95,25 +95,6 @@ TEST(ResultWriterFailure, RefusesASecondWriterOfTheSameResult) {
   write_one(directory / "a.h5", 2.0);
   EXPECT_THAT(OpenResult(directory / "a.h5").doubles("/a"), ElementsAre(2.0));
 }
-
-/// Limits the size of files that this process writes, so that writing fails as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    previous_handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &previous_);
-    const rlimit limit{bytes, previous_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &previous_);
-    std::signal(SIGXFSZ, previous_handler_);
-  }
-
- private:
-  rlimit previous_{};
-  void (*previous_handler_)(int) = nullptr;
-};
 
 /// Random samples do not compress.
 void write_much(ResultWriter& writer) {

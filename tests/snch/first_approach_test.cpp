@@ -36,12 +36,14 @@ TEST(FirstApproach, OfBoxesIsWhereTheirFacesAreAGapApart) {
 TEST(FirstApproach, IsAGapApartAndFartherEverywhereBeyond) {
   std::mt19937_64 random(5);
   const Approach shapes(testing::make_scene(make_blob(0.05, 0.01, 2), make_torus(0.05, 0.02, 16, 8), 1.0));
+  int met = 0;
   for (const double gap : {1e-5, 1e-3, 0.03, 0.5}) {
     for (int i = 0; i < 20; ++i) {
       Pose pose{0.02 * testing::random_direction(random), testing::random_rotation(random)};
       const Vec3 start = pose.translation, direction = testing::random_direction(random);
       const double displacement = shapes.from(pose, direction, gap).displacement;
       if (!std::isfinite(displacement)) continue;  // Through the hole; see below.
+      ++met;
       pose.translation = start + displacement * direction;
       EXPECT_NEAR(shapes.distance(pose), gap, 2.0 * TOLERANCE * gap);
       for (const double further : {1e-6, 1e-3, 0.01, 0.03, 0.1}) {
@@ -50,6 +52,7 @@ TEST(FirstApproach, IsAGapApartAndFartherEverywhereBeyond) {
       }
     }
   }
+  EXPECT_GT(met, 40);
 }
 
 TEST(FirstApproach, IsNoneWhereALinePassesWithoutComingNear) {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/catalogue/off_file.h>
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/phantom/stability_boundary.h>
@@ -11,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <support/committed.h>
 #include <support/files.h>
+#include <support/scratch_directory.h>
 #include <support/source_directory.h>
 
 #include <cmath>
@@ -241,6 +244,45 @@ TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
           std::string(law) == "linear" ? 500.0 : 4.0 * (push + 10.0 / std::expm1(4.0)) / 0.02;
       EXPECT_NEAR(trial.stiffness_n_per_m, slope, 1e-5 * slope) << law;
     }
+  }
+}
+
+/// Two sharp ridges along y of a mesh, at x and -x, upwards or downwards.
+TriangleMesh ridges(double x, bool upwards) {
+  const TriangleMesh up = translated(make_wedge(0.01, 0.1, 0.03), Vec3(0.0, 0.0, -0.03));
+  TriangleMesh one = up;
+  for (Vec3& vertex : one.vertices)
+    if (!upwards) vertex = Vec3(-vertex.x(), vertex.y(), -vertex.z());
+  return merged(translated(one, Vec3(x, 0.0, 0.0)), translated(one, Vec3(-x, 0.0, 0.0)));
+}
+
+/// Ridges across ridges at 45 degrees: contacts that turn are less stiff than their K_eff.
+TEST(StabilitySearch, ContactsThatTurnAreLessStiffThanTheirLawAndMayGiveWay) {
+  const testing::ScratchDirectory scratch;
+  constexpr double CUTOFF = 0.005, FORCE = 10.0;
+  for (const double distance : {0.004, 0.002}) {
+    const double beside = distance / std::numbers::sqrt2;
+    write_off(scratch / "moving.off", ridges(0.02, false));
+    write_off(scratch / "fixed.off", ridges(0.02 + beside, true));
+    const std::string rest = fmt::format("0 0 {0} 0 0 0 1", beside);
+    const std::string path = scratch.write("rest.tum", "0 " + rest + "\n1 " + rest + "\n");
+    const std::vector<Override> overrides{"/moving={\"mesh\":\"" + (scratch / "moving.off").string() + "\"}",
+                                          "/fixed=[{\"mesh\":\"" + (scratch / "fixed.off").string() + "\"}]",
+                                          "/path/file=" + path,
+                                          fmt::format("/force/cutoff_m={}", CUTOFF),
+                                          fmt::format("/force/maximum_force_n={}", FORCE),
+                                          "/loop/push_n=[0, 0, 0]",
+                                          "/loop/hand=postural-arm"};
+    if (distance < 0.5 * CUTOFF) {
+      EXPECT_EQ(search(overrides).clean_until, "gives_way");
+      continue;
+    }
+    const Experiment experiment = load_experiment(testing::WALL_FILE, overrides);
+    const PreparedRun prepared = prepare(experiment);
+    const StabilityTrial trial =
+        try_stiffness(experiment, prepared.input, driven_methods(experiment, prepared).at(0), {});
+    const double slope = FORCE / CUTOFF - FORCE * (1.0 / distance - 1.0 / CUTOFF);
+    EXPECT_NEAR(trial.stiffness_n_per_m, slope, 1e-4 * slope) << "K_eff is a third more";
   }
 }
 

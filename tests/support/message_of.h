@@ -25,4 +25,15 @@ std::string message_of(const Action& action) {
   return {};
 }
 
+/// The same, but nothing has to be thrown: then the text is empty.
+template <typename ErrorType, typename Action>
+std::string complaint_of(const Action& action) {
+  try {
+    action();
+  } catch (const ErrorType& error) {
+    return error.what();
+  }
+  return {};
+}
+
 }  // namespace lmdbench::testing

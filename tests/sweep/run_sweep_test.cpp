@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <result_file/result_reading.h>
 #include <support/files.h>
-#include <support/source_directory.h>
+#include <sweep/small_sweep.h>
 
 #include <cmath>
 #include <filesystem>
@@ -23,21 +23,10 @@ using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
 
-constexpr const char* SWEEP = R"({
-  "name": "small", "title": "a test", "experiments": ["EXPERIMENT"], "repetitions": 2, "truth_check_frames": 4,
-  "set": {"/frames": 400},
-  "series": [
-    {"method": {"name": "improved", "force_law": "exponential"},
-     "axes": [{"/driver/search_every_frames": [5, 40], "/driver/search_latency_frames": [5, 40]}]},
-    {"method": {"name": "certified", "force_law": "exponential"}}
-  ]})";
-
 class RunSweep : public ::testing::Test {
  protected:
-  std::filesystem::path write(std::string text = SWEEP) {
-    const std::string place = "EXPERIMENT";
-    text.replace(text.find(place), place.size(), LMDBENCH_SOURCE_DIR "/experiments/shapes.json");
-    return scratch_.write("sweep.json", text);
+  Sweep loaded(const std::string& of_certified = "", int frames = 400, const std::string& keys = "") {
+    return load_sweep(scratch_.write("sweep.json", testing::small_sweep(frames, 4, of_certified, keys)));
   }
   SweepResult run(const Sweep& sweep) {
     return run_sweep_to_file(sweep, scratch_ / "out.h5", {"lmdbench", "work-precision"});
@@ -46,7 +35,7 @@ class RunSweep : public ::testing::Test {
 };
 
 TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
-  const Sweep sweep = load_sweep(write());
+  const Sweep sweep = loaded();
   const SweepResult result = run(sweep);
   const OpenResult file(scratch_ / "out.h5");
   EXPECT_THAT(file.strings("/points/series"), ElementsAre("improved", "improved", "certified"));
@@ -77,11 +66,7 @@ TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
 }
 
 TEST_F(RunSweep, PointsOfAnotherProblemDoNotBeatEachOther) {
-  std::string text = SWEEP;
-  text.replace(
-      text.find(R"({"method": {"name": "certified", "force_law": "exponential"}})"), 61,
-      R"({"method": {"name": "certified", "force_law": "exponential"}, "axes": [{"/force/maximum_force_n": [1, 2]}]})");
-  const Sweep sweep = load_sweep(write(text));
+  const Sweep sweep = loaded(R"(, "axes": [{"/force/maximum_force_n": [1, 2]}])");
   const SweepResult result = run(sweep);
   ASSERT_EQ(result.points.size(), 4u);
   EXPECT_TRUE(on_front(sweep, result, 2));
@@ -94,7 +79,7 @@ TEST_F(RunSweep, PointsOfAnotherProblemDoNotBeatEachOther) {
 }
 
 TEST_F(RunSweep, GoesOnWhereItStopped) {
-  const Sweep sweep = load_sweep(write());
+  const Sweep sweep = loaded();
   const auto stop_after = [](int calls) {
     return [calls](const std::string& phase, std::int64_t done, std::int64_t) {
       return phase != "points" || done < calls;
@@ -112,19 +97,11 @@ TEST_F(RunSweep, GoesOnWhereItStopped) {
     EXPECT_EQ(again.points[i].result_hash, rest.points[i].result_hash);
   }
 
-  std::string wider = SWEEP;
-  wider.replace(wider.find("\"/frames\": 400"), 14, "\"/frames\": 390");
-  EXPECT_EQ(run(load_sweep(write(wider))).resumed_runs, 0) << "another path length is another point";
+  EXPECT_EQ(run(loaded("", 390)).resumed_runs, 0) << "another path length is another point";
 }
 
 TEST_F(RunSweep, KeepsAFailedPointAsAFailureAndGoesOn) {
-  std::string text = SWEEP;
-  const std::string set = R"("set": {"/frames": 400},)";
-  text.replace(text.find(set), set.size(), set + "\n");
-  text.replace(text.find(R"({"method": {"name": "certified", "force_law": "exponential"}})"), 61,
-               R"({"method": {"name": "certified", "force_law": "exponential"},
-                   "axes": [{"/moving/mesh": ["blob", "./missing.off"]}]})");
-  const Sweep sweep = load_sweep(write(text));
+  const Sweep sweep = loaded(R"(, "axes": [{"/moving/mesh": ["blob", "./missing.off"]}])");
   const SweepResult result = run(sweep);
   ASSERT_EQ(result.points.size(), 4u);
   EXPECT_TRUE(result.points[2].failure.empty());
@@ -138,26 +115,20 @@ TEST_F(RunSweep, KeepsAFailedPointAsAFailureAndGoesOn) {
 }
 
 TEST_F(RunSweep, APointWithoutAFrameThatCountsIsAFailure) {
-  std::string text = SWEEP;
-  text.replace(text.find("\"series\""), 8, "\"from_frame\": 399, \"series\"");
-  const Sweep sweep = load_sweep(write(text));
-  for (const PointResult& point : run(sweep).points)
+  for (const PointResult& point : run(loaded("", 400, R"(, "from_frame": 399)")).points)
     EXPECT_THAT(point.failure,
                 AllOf(HasSubstr("/from_frame"), HasSubstr("of 400 the first 399 and the last")));
 }
 
 TEST_F(RunSweep, JudgesAStandInByTheMeshThatItStandsFor) {
-  std::string text = SWEEP;
-  text.replace(text.find(R"({"method": {"name": "certified", "force_law": "exponential"}})"), 61,
-               R"({"method": {"name": "certified", "force_law": "exponential"},
-                   "set": {"/moving/mesh": "sphere"}, "truth": {"/moving/mesh": "blob"}})");
-  const SweepResult result = run(load_sweep(write(text)));
+  const SweepResult result =
+      run(loaded(R"(, "set": {"/moving/mesh": "sphere"}, "truth": {"/moving/mesh": "blob"})"));
   EXPECT_TRUE(std::isnan(result.points.at(2).number("recall"))) << "features of two meshes do not correspond";
   EXPECT_GT(result.points[2].number("force_error_rms_n"), 0.0) << "exact on the wrong mesh";
 }
 
 TEST_F(RunSweep, ReplacesNothingButItsOwn) {
-  const Sweep sweep = load_sweep(write());
+  const Sweep sweep = loaded();
   scratch_.write("out.h5.points.jsonl", "somebody's notes\n");
   EXPECT_THROW(run(sweep), UsageError);
   EXPECT_EQ(testing::read_text(scratch_ / "out.h5.points.jsonl"), "somebody's notes\n");

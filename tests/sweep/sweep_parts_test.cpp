@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <result_file/result_reading.h>
 #include <support/message_of.h>
-#include <support/source_directory.h>
+#include <sweep/small_sweep.h>
 
 #include <filesystem>
 #include <string>
@@ -26,26 +26,11 @@ using ::testing::HasSubstr;
 using testing::OpenResult;
 using testing::ScratchDirectory;
 
-constexpr const char* PARTED_SWEEP = R"({
-  "name": "small", "title": "a test", "experiments": ["EXPERIMENT"], "repetitions": 2, "truth_check_frames": 2,
-  "set": {"/frames": 120},
-  "series": [
-    {"method": {"name": "improved", "force_law": "exponential"},
-     "axes": [{"/driver/search_every_frames": [5, 40], "/driver/search_latency_frames": [5, 40]}]},
-    {"method": {"name": "certified", "force_law": "exponential"},
-     "axes": [{"/moving/mesh": ["blob", "MESH"]}]}
-  ]})";
-
-/// Replaces one word of the text.
-std::string with(std::string text, const std::string& word, const std::string& value) {
-  return text.replace(text.find(word), word.size(), value);
-}
-
 class SweepParts : public ::testing::Test {
  protected:
   Sweep sweep(const std::string& last_mesh = "sphere") {
-    const std::string text = with(PARTED_SWEEP, "EXPERIMENT", LMDBENCH_SOURCE_DIR "/experiments/shapes.json");
-    return load_sweep(scratch_.write("sweep.json", with(text, "MESH", last_mesh)));
+    const std::string axes = R"(, "axes": [{"/moving/mesh": ["blob", ")" + last_mesh + "\"]}]";
+    return load_sweep(scratch_.write("sweep.json", testing::small_sweep(120, 2, axes)));
   }
   SweepResult collect(const Sweep& sweep) { return collect_sweep_to_file(sweep, out_, {"lmdbench"}); }
   std::vector<bool> done(const Sweep& sweep) {

@@ -63,7 +63,8 @@ void add_stability_command(CLI::App& app, int& exit_status) {
   command->footer(
       "With Coulomb friction the answer is that of the tap in the table; `exact` is the linear loop without "
       "friction.\n"
-      "Exit codes: 0 every row has a stiffness; 3 one has none: no_contact, saturated, stuck, within_counts, "
+      "Exit codes: 0 every row has a stiffness; 3 one has none: no_contact, saturated, gives_way, stuck, "
+      "within_counts, "
       "never or "
       "undecided, with the remedy on "
       "standard error.");

@@ -37,16 +37,20 @@ double growth(double first, double second) {
   return std::log(second / first);
 }
 
-/// Oscillations a second: half the sign changes of the velocity in the direction of most motion.
+/// Oscillations a second: of the velocity's sign changes in the direction of most motion, from the
+/// first one to the last, each at its place between two frames.
 double frequency(std::span<const Vec3> velocity, double period) {
   Mat3 spread = Mat3::Zero();
   for (const Vec3& v : velocity) spread += v * v.transpose();
   int axis = 0;
   spread.diagonal().maxCoeff(&axis);
-  std::int64_t changes = 0;
-  for (std::size_t i = 1; i < velocity.size(); ++i)
-    if (velocity[i - 1][axis] * velocity[i][axis] < 0.0) ++changes;
-  return static_cast<double>(changes) / (2.0 * period * static_cast<double>(velocity.size()));
+  std::vector<double> changes;  // in frames
+  for (std::size_t i = 1; i < velocity.size(); ++i) {
+    const double before = velocity[i - 1][axis], after = velocity[i][axis];
+    if (before * after < 0.0) changes.push_back(static_cast<double>(i) - after / (after - before));
+  }
+  if (changes.size() < 2) return 0.0;
+  return static_cast<double>(changes.size() - 1) / (2.0 * period * (changes.back() - changes.front()));
 }
 
 }  // namespace
@@ -60,8 +64,8 @@ std::vector<Vec3> above_30_hz(const std::vector<Vec3>& signal, double period_s) 
   const double a2 = (1.0 - std::numbers::sqrt2 * w + w * w) * scale;
   std::vector<Vec3> result;
   result.reserve(signal.size());
-  Vec3 x1 = Vec3::Zero();
-  Vec3 x2 = Vec3::Zero();
+  Vec3 x1 = signal.empty() ? Vec3(Vec3::Zero()) : signal.front();
+  Vec3 x2 = x1;
   Vec3 y1 = Vec3::Zero();
   Vec3 y2 = Vec3::Zero();
   for (const Vec3& x : signal) {

@@ -22,7 +22,7 @@ inline constexpr int SKIPPED_CYCLES = 5;
 inline constexpr int WINDOW_CYCLES = 20;
 inline constexpr double HIGH_PASS_HZ = 30.0;
 
-/// The signal after the high pass, sample by sample; it begins with a step from zero.
+/// The signal after the high pass, sample by sample, as if its first value had always been there.
 std::vector<Vec3> above_30_hz(const std::vector<Vec3>& signal, double period_s);
 
 /// A swing, frame by frame from the tap on.

@@ -149,9 +149,8 @@ void summarise_rendering(MethodSummary& summary, const MethodRecord& record, con
     summary.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(all.size()));
   }
   if (!record.loop.empty()) {
-    double most = 0.0;
-    for (const LoopFrame& frame : record.loop) most = std::max(most, frame.energy.rendered);
-    summary.energy_created_j = most;
+    if (const std::vector<double> work = contact_work(record, frames.ports); !work.empty())
+      summary.energy_created_j = maximum(work);
     summary.energy_balance_error = record.loop.back().energy.balance_error();
   }
   if (force.empty()) return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <lmdbench/drivers/records.h>
+#include <lmdbench/metrics/contact_work.h>
 #include <lmdbench/metrics/method_summary.h>
 #include <lmdbench/probes/truth_probe.h>
 
@@ -42,6 +43,7 @@ struct RunFrames {
   std::vector<bool> in_contact;  ///< One a frame (contact.h).
   double frame_rate_hz = 0.0;
   double maximum_force = 0.0;  ///< F_max of one LMD [N].
+  ContactPorts ports = {};
 };
 
 /// Numbers of LMDs over the frames in contact (the largest: over all), of candidates over the

@@ -107,7 +107,8 @@ RunSummary summarise(const Experiment& experiment, const RunResult& result) {
     const Track& track = result.track_of(i);
     const PreparedProfile& profile = result.prepared.profiles[track.profile];
     method.profile = profile.name;
-    const RunFrames frames{track.in_contact, experiment.frame_rate_hz, profile.force.maximum_force};
+    const RunFrames frames{track.in_contact, experiment.frame_rate_hz, profile.force.maximum_force,
+                           contact_ports(result.prepared.input)};
     summarise_counts(method, record, frames);
     summarise_rendering(method, record, frames);
     summarise_jumps(method, record, frames);

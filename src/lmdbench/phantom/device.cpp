@@ -96,7 +96,7 @@ constexpr std::array<Device, 6> DEVICES = {{
         .apparent_mass = recalled(0.136, "kg"),  // an upper bound, the larger of two recalled
         .damping = MECHANISM_DAMPING,
         .friction = recalled(0.04, "N"),
-        .torque = recalled(0.188, "N m"),
+        .torque = chai3d(0.188, "N m"),
         .workspace = {survey(0.381, "m"), survey(0.267, "m"), survey(0.191, "m")},
     },
     {

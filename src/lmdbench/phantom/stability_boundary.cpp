@@ -84,7 +84,8 @@ std::vector<double> looks(std::int64_t delay) {
 
 double total_damping(const DeviceDynamics& dynamics) {
   double sum = dynamics.damping_n_s_per_m;
-  if (dynamics.hand) sum += dynamics.hand->damping_n_s_per_m + dynamics.hand->grip_damping_n_s_per_m;
+  if (dynamics.hand) sum += dynamics.hand->damping_n_s_per_m;
+  if (dynamics.hand && dynamics.hand->has_grip()) sum += dynamics.hand->grip_damping_n_s_per_m;
   return sum;
 }
 

@@ -29,12 +29,17 @@ std::vector<double> seconds_of(const std::vector<std::int64_t>& durations) {
   return seconds_since(durations, 0);
 }
 
-/// `later` minus the time asked for, per frame [s].
-std::vector<double> after_asked(const TickTimes& times, const std::vector<std::int64_t>& later) {
+/// `later` minus the instant, for every instant of the grid [s]: those that a late tick skipped
+/// have waited for it, too, each a period less than the one before. Else a stall of a hundred
+/// periods would be one late sample among many.
+std::vector<double> after_instants(const TickTimes& times, const std::vector<std::int64_t>& later,
+                                   std::int64_t period) {
   std::vector<double> seconds;
-  seconds.reserve(later.size());
+  seconds.reserve(later.size() + static_cast<std::size_t>(times.skipped));
   for (std::size_t i = 0; i < later.size(); ++i)
-    seconds.push_back(S_PER_NS * static_cast<double>(later[i] - times.asked[i]));
+    for (std::int64_t instant = times.asked[i]; instant == times.asked[i] || instant <= times.woken[i];
+         instant += period)
+      seconds.push_back(S_PER_NS * static_cast<double>(later[i] - instant));
   return seconds;
 }
 
@@ -43,11 +48,11 @@ struct RunLateness {
   std::vector<double> servo, response, floor, floor_response;
 
   explicit RunLateness(const RealtimeRecord& clock)
-      : servo(after_asked(clock.servo().times, clock.servo().times.woken)),
-        response(after_asked(clock.servo().times, clock.servo().times.done)) {
+      : servo(after_instants(clock.servo().times, clock.servo().times.woken, clock.period)),
+        response(after_instants(clock.servo().times, clock.servo().times.done, clock.period)) {
     for (const TickTimes* times : {&clock.floor_before, &clock.floor_after}) {
-      const std::vector<double> woken = after_asked(*times, times->woken),
-                                done = after_asked(*times, times->done);
+      const std::vector<double> woken = after_instants(*times, times->woken, clock.period),
+                                done = after_instants(*times, times->done, clock.period);
       floor.insert(floor.end(), woken.begin(), woken.end());
       floor_response.insert(floor_response.end(), done.begin(), done.end());
     }
@@ -111,13 +116,13 @@ void write_series(ResultWriter& writer, const std::string& group, const std::str
   write_quantiles(writer, group, of, quantiles);
   std::vector<std::int64_t> above;
   for (const LatenessQuantile& quantile : quantiles) above.push_back(quantile.above);
-  writer.write({group + "/above", "1", "ticks above it"}, std::span<const std::int64_t>(above),
+  writer.write({group + "/above", "1", "instants above it"}, std::span<const std::int64_t>(above),
                {above.size()});
   const std::vector<std::int64_t> counts = lateness_histogram(seconds);
-  writer.write({group + "/histogram", "1", "ticks by bin of edges; one more above the last edge"},
+  writer.write({group + "/histogram", "1", "instants by bin of edges; one more above the last edge"},
                std::span<const std::int64_t>(counts), {counts.size()});
   writer.attribute(group, "maximum_s", lateness.maximum());
-  writer.attribute(group, "ticks", static_cast<std::int64_t>(lateness.size()));
+  writer.attribute(group, "instants", static_cast<std::int64_t>(lateness.size()));
 }
 
 void write_lateness(ResultWriter& writer, const std::string& group, const RealtimeRecord& clock) {

@@ -7,6 +7,7 @@
 #include <lmdbench/lmd/method_description.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/metrics/cleanliness.h>
+#include <lmdbench/metrics/contact_work.h>
 #include <lmdbench/prepare/contact.h>
 #include <lmdbench/prepare/prepare.h>
 #include <lmdbench/stability/stability_map.h>
@@ -69,7 +70,8 @@ std::vector<Pose> meant_path(const std::vector<Pose>& path, std::int64_t frames,
   return meant;
 }
 
-void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scene, double rate) {
+void measure(StabilityMapRun& run, const MethodRecord& record, const ContactPorts& ports, const Scene& scene,
+             double rate) {
   const auto settled = static_cast<std::size_t>(SETTLED_S * rate);
   const std::size_t frames = record.frames.size();
   Swing swing;
@@ -94,7 +96,7 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
   run.amplitude_m = std::sqrt(spread / static_cast<double>(swing.position_W.size()));
   run.frequency_hz = judge(swing).frequency_hz;
   run.force_mean_n = mean(force);
-  // The filter runs over the whole force: a later start would be a step.
+  // The filter runs over the whole force, so that it is settled where measuring begins.
   std::vector<Vec3> all;
   for (const FrameRecord& frame : record.frames) all.push_back(frame.force);
   const std::vector<Vec3> high = above_30_hz(all, 1.0 / rate);
@@ -106,10 +108,8 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const Scene& scen
   run.clearance_m = distances.least_m;
   run.penetration_share = static_cast<double>(distances.touching) / static_cast<double>(frames - settled);
   const double seconds = static_cast<double>(frames - 1 - settled) / rate;
-  run.power_created_w = (record.loop.back().energy.rendered - record.loop[settled].energy.rendered) / seconds;
-  run.energy_created_j = 0.0;
-  for (const LoopFrame& frame : record.loop)
-    run.energy_created_j = std::max(run.energy_created_j, frame.energy.rendered);
+  if (const std::vector<double> work = contact_work(record, ports); !work.empty())
+    run.power_created_w = (work.back() - work[settled]) / seconds;
   run.balance_error = record.loop.back().energy.balance_error();
 }
 
@@ -165,7 +165,7 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
           input.frames = grid.frames;
           input.loop = loop;
           const MethodRecord record = run_lockstep({scaled}, input, driver, {}).front();
-          measure(run, record, profile.scene, rate);
+          measure(run, record, contact_ports(input), profile.scene, rate);
           if (!sink(run)) return;
         }
       }
@@ -190,7 +190,6 @@ std::string stability_map_json(const std::string& scene, const StabilityMapRun& 
                                 {"power_created_w", run.power_created_w},
                                 {"jumps", run.jumps},
                                 {"dropouts", run.dropouts},
-                                {"energy_created_j", run.energy_created_j},
                                 {"balance_error", run.balance_error},
                                 {"shaking", run.shaking()},
                                 {"through", run.through()},

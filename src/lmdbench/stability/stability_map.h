@@ -51,12 +51,10 @@ struct StabilityMapRun {
   double effective_stiffness_p99_n_per_m = UNSET;
   double clearance_m = UNSET;        ///< Least true distance; 0: touching.
   double penetration_share = UNSET;  ///< Share of frames with touching meshes.
-  double power_created_w = UNSET;    ///< Net work of the force per second; > 0 feeds the motion.
+  double power_created_w = UNSET;    ///< Net work of the contacts per second; > 0 feeds the motion.
   std::int64_t jumps = 0;
-  std::int64_t dropouts = 0;  ///< Frames whose force fell to zero.
-  // Of the whole run:
-  double energy_created_j = UNSET;  ///< Passivity observer: largest net work of the force so far.
-  double balance_error = UNSET;     ///< Of the energies (simulated_device.h).
+  std::int64_t dropouts = 0;     ///< Frames whose force fell to zero.
+  double balance_error = UNSET;  ///< Of the energies of the whole run (simulated_device.h).
 
   bool shaking() const { return dropouts > 0 || force_above_30_hz_n > SHAKING_LOAD * LOAD_N; }
   bool through() const { return penetration_share > 0.0; }

@@ -74,7 +74,7 @@ class Search {
     if (!given.carried && given.in_contact) {
       row.clean_until = "never";
     } else if (!given.in_contact) {
-      row.clean_until = given.saturated ? "saturated" : "no_contact";
+      row.clean_until = given.saturated ? "saturated" : given.gives_way ? "gives_way" : "no_contact";
     } else if (given.within_counts) {
       row.clean_until = "within_counts";
     } else if (has_friction(experiment_.loop)) {
@@ -234,6 +234,11 @@ std::string advice(const StabilityRow& row) {
            "and a contact has no "
            "stiffness (remedy: begin it farther out, or lower /force/saturation_m; `lmdbench init --contact` "
            "finds a pose)";
+  if (row.clean_until == "gives_way")
+    return who +
+           "the force at the path's first pose does not fall as the mesh moves along it: its contacts turn "
+           "away, so it has no stiffness "
+           "(remedy: begin the path where the contacts are nearer, or press against a flatter place)";
   if (row.clean_until == "stuck")
     return who + fmt::format(
                      "friction of {:g} N holds the device against every tap that the contact bears, so no "

@@ -51,9 +51,9 @@ struct StabilityRow {
   /// the device clips the resting force or torque first; "nothing": no end found. Without a
   /// stiffness (has_answer): "never": none was clean (or none that carries the push); "no_contact":
   /// no force and stiffness at the first pose, or within the push's reach; "saturated": nearer than
-  /// the saturation distance; "stuck": friction holds against every tap that the contact bears;
-  /// "within_counts": it leaves less motion than encoders count; "undecided": the budget ended
-  /// first, with the largest clean stiffness so far.
+  /// the saturation distance; "gives_way": the force does not fall along itself; "stuck": friction
+  /// holds against every tap that the contact bears; "within_counts": it leaves less motion than
+  /// encoders count; "undecided": the budget ended first, with the largest clean stiffness so far.
   std::string clean_until;
   double tap_m = UNSET;     ///< Swing of the tap at the stiffness found [m].
   std::int64_t trials = 0;  ///< Closed loops simulated or skipped.

@@ -141,8 +141,7 @@ FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& meth
   return run_lockstep({method}, held, driver, {}).front().frames.back();
 }
 
-/// Stiffness of a force of the method's own, which knows none: its central difference along itself;
-/// 0 without force.
+/// The force's slope along itself, by central difference; 0 without force.
 double slope_along(const Vec3& force_W, const Pose& X_WM, const std::function<FrameRecord(const Pose&)>& held,
                    double cutoff) {
   const Vec3 along_W = force_W.normalized();
@@ -256,10 +255,8 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
     held.poses.front() = *pose;
   }
   const FrameRecord at_rest = at(held.poses.front());
-  const bool own_force = std::isnan(at_rest.effective_stiffness);
-  trial.stiffness_n_per_m = own_force
-                                ? slope_along(at_rest.force, held.poses.front(), at, method.profile.cutoff)
-                                : at_rest.effective_stiffness;
+  // K_eff holds the directions of contacts; between corners and edges they turn as the mesh moves.
+  trial.stiffness_n_per_m = slope_along(at_rest.force, held.poses.front(), at, method.profile.cutoff);
   trial.force_at_rest_W = at_rest.force;
   Rest rest;
   rest.pose = held.poses.front();
@@ -267,11 +264,13 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   rest.rendered = input.device.render({at_rest.force, at_rest.torque, 0.0});
   if (!loop.rotation) rest.rendered.torque.setZero();
   trial.clipped = at_rest.force_clipped || (loop.rotation && rest.rendered.torque_clipped);
-  rest.range_m = own_force ? at_rest.force.norm() / trial.stiffness_n_per_m
-                           : std::min(method.profile.cutoff - at_rest.minimum_distance,
-                                      at_rest.minimum_distance - method.profile.saturation_distance);
+  rest.range_m = std::isnan(at_rest.effective_stiffness)
+                     ? at_rest.force.norm() / trial.stiffness_n_per_m
+                     : std::min(method.profile.cutoff - at_rest.minimum_distance,
+                                at_rest.minimum_distance - method.profile.saturation_distance);
   trial.in_contact = trial.stiffness_n_per_m > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;
   trial.saturated = !trial.in_contact && at_rest.minimum_distance <= method.profile.saturation_distance;
+  trial.gives_way = !trial.in_contact && !trial.saturated && at_rest.force.norm() > 0.0;
   if (!trial.in_contact || trial.clipped) return trial;
   double felt_mass = moving_mass(loop.dynamics);
   if (loop.rotation) {

@@ -16,8 +16,10 @@
 ///     of one that turns as well, the point nearest to it on the contact force's line.
 ///  3. The trial ends after SKIPPED_CYCLES + 2 WINDOW_CYCLES oscillations, when the swing has died
 ///     down or left the contact's range, or after MOST_SWING_FRAMES.
-/// Method, force law, device clipping and search period are those of a run. A force of the method's
-/// own has its stiffness by central difference; the trial takes force over stiffness for its range.
+/// Method, force law, device clipping and search period are those of a run. The contact's stiffness
+/// is the force's slope along itself, by central difference: contacts that turn while the mesh
+/// moves are less stiff than K_eff, which holds their directions. Of a force of the method's own
+/// the range is force over stiffness.
 ///
 /// With Coulomb friction the loop is not linear, and a tap's result depends on its size: friction f
 /// takes 4 f a from a swing of amplitude a in each oscillation, while the sampled contact gives
@@ -49,7 +51,7 @@ inline constexpr double ESCAPED_SHARE = 0.5;  ///< Of the contact's range: more 
 inline constexpr std::int64_t MOST_SWING_FRAMES = 1'000'000;
 
 struct StabilityTrial {
-  double stiffness_n_per_m = UNSET;  ///< K_eff of the resting contact.
+  double stiffness_n_per_m = UNSET;  ///< Slope of the resting contact's force along itself.
   /// Has force and stiffness at rest, or some force against a push that it does not carry; else
   /// unset below.
   bool in_contact = false;
@@ -57,6 +59,9 @@ struct StabilityTrial {
   bool clipped = false;  ///< The device clips the resting force, cannot render it.
   /// Not in contact because it rests nearer than the saturation distance, or touches.
   bool saturated = false;
+  /// Not in contact because its force does not fall along itself: contacts of corners and edges
+  /// turn away as the mesh moves.
+  bool gives_way = false;
   /// Friction holds the device against any tap that the contact bears; nothing was simulated.
   bool stuck = false;
   /// The contact bears no tap that the encoders see; nothing was simulated.

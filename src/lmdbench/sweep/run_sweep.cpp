@@ -118,7 +118,7 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
                   const SharedScene::Truth& truth) {
   const MethodChoice& choice = point.experiment.methods.front();
   const RunFrames frames{scene.in_contact(), scene.run().input.frame_rate_hz,
-                         scene.run().profiles.front().force.maximum_force};
+                         scene.run().profiles.front().force.maximum_force, contact_ports(scene.run().input)};
   const std::vector<TruthComparison> rows =
       compare_with_truth(truth.sets.frames, record, choice.force_law, scene.run_of(truth).scene());
   MethodSummary summary;

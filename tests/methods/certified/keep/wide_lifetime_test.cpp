@@ -227,6 +227,7 @@ TEST(WideLifetime, WhatComesRoundFromBehindAConeIsNotForgotten) {
 /// is left of the growth of |D across u|^2 is rounding.
 TEST(WideLifetime, NothingDriftsIntoANarrowConeBeforeItsFramesAreOver) {
   std::mt19937_64 random(9);
+  int rejected = 0;
   for (int i = 0; i < 200000; ++i) {
     LaneSample cone(random), point(random);
     const double away = 0.01 + uniform(random), beside = away * 1.5e-3 * std::pow(10.0, uniform(random)),
@@ -242,8 +243,10 @@ TEST(WideLifetime, NothingDriftsIntoANarrowConeBeforeItsFramesAreOver) {
     const WideLimits limits{3.0F, 0.0F, static_cast<float>(POSITION_ROUNDING * 2.0 * away)};
     const WideLifetimes result = lifetimes_along(point, cone, velocity, i % 2 == 1, limits);
     if (result.lmd != 0) continue;
+    ++rejected;
     ASSERT_LE(static_cast<double>(result.frames), frames) << i << ", " << beside / away;
   }
+  EXPECT_GT(rejected, 50000);
 }
 
 /// Two children, a point of each of which touches the other at the end of a motion.
