@@ -12,6 +12,23 @@
 #include <utility>
 
 namespace lmdbench::experiments {
+namespace {
+
+class SearchEveryFrame : public FrameLoop {
+ public:
+  SearchEveryFrame(std::unique_ptr<GlobalSearch> search, const RecordedPath& path)
+      : path_(path), search_(std::move(search)) {}
+
+  void step(std::size_t frame) override { search_->run(path_.poses()[frame]); }
+  double minimum_distance() const override { return search_->minimum_distance(); }
+  const LmdSet* lmds() const override { return search_->lmds(); }
+
+ private:
+  const RecordedPath& path_;
+  std::unique_ptr<GlobalSearch> search_;
+};
+
+}  // namespace
 
 DrivenMethod RecordedPath::method(const std::string& method) const {
   for (const DrivenMethod& known : methods)
@@ -73,6 +90,11 @@ LmdError check_frames(const FrameImplementation& implementation, FrameLoop& loop
               path.truth[index], loop.lmds(), loop.minimum_distance());
   }
   return error;
+}
+
+std::unique_ptr<FrameLoop> make_search_every_frame(const SearchImplementation& search,
+                                                   const RecordedPath& path) {
+  return std::make_unique<SearchEveryFrame>(search.make(path.scene), path);
 }
 
 }  // namespace lmdbench::experiments

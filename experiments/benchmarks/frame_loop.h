@@ -4,6 +4,7 @@
 
 #include <lmdbench/drivers/lockstep.h>
 
+#include <benchmarks/global_search/implementation.h>
 #include <support/lmd_error.h>
 
 #include <cstddef>
@@ -72,5 +73,9 @@ std::vector<std::size_t> frames_of(const FrameImplementation& implementation, co
 
 /// Steps through the path and compares with truth.
 LmdError check_frames(const FrameImplementation& implementation, FrameLoop& loop, const RecordedPath& path);
+
+/// A global search in every frame, for methods without local tracking and for peers.
+std::unique_ptr<FrameLoop> make_search_every_frame(const SearchImplementation& search,
+                                                   const RecordedPath& path);
 
 }  // namespace lmdbench::experiments

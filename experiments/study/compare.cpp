@@ -3,7 +3,7 @@
 #include <lmdbench/base/statistics.h>
 
 #include <CLI/CLI.hpp>
-#include <benchmarks/global_search/check.h>
+#include <benchmarks/global_search/implementation.h>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 #include <study/pieces.h>

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmarks/benchmark_program.h>
 #include <benchmarks/global_search/benchmarks.h>
-#include <benchmarks/global_search/check.h>
-#include <benchmarks/tasks.h>
 #include <support/setting.h>
 
 namespace lmdbench::experiments {
@@ -43,10 +41,6 @@ void add_search_benchmarks(const std::vector<SearchImplementation>& implementati
   static const std::vector<Setting> settings = grazing_settings(choice, {0.005, 0.02, 0.05}, POSE_COUNT);
   for (const SearchImplementation& implementation : implementations)
     for (const Setting& setting : settings) add_search(implementation, setting);
-}
-
-void add_global_searches() {
-  add_search_benchmarks(search_implementations());
 }
 
 }  // namespace lmdbench::experiments

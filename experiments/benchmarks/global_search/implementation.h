@@ -52,4 +52,8 @@ SearchImplementation cgal_vertex_search();
 /// has its own program.
 std::vector<SearchImplementation> search_implementations();
 
+/// Runs the implementation at every pose and compares with truth.
+LmdError check_search(const SearchImplementation& implementation, GlobalSearch& search, const Scene& scene,
+                      const std::vector<Pose>& poses, const Truth& truth);
+
 }  // namespace lmdbench::experiments

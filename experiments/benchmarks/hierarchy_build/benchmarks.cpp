@@ -5,7 +5,6 @@
 
 #include <benchmarks/benchmark_program.h>
 #include <benchmarks/hierarchy_build/benchmarks.h>
-#include <benchmarks/tasks.h>
 #include <support/bodies.h>
 
 #include <iostream>
@@ -63,10 +62,6 @@ void add_build_benchmarks(const std::vector<BuildImplementation>& implementation
     for (const BuildImplementation& implementation : implementations)
       add_build(implementation, mesh, prepared);
   }
-}
-
-void add_hierarchy_builds() {
-  add_build_benchmarks(build_implementations());
 }
 
 }  // namespace lmdbench::experiments

@@ -8,7 +8,9 @@
 
 namespace lmdbench::experiments {
 
-/// The benchmarks of `add_hierarchy_builds` (tasks.h) for these implementations.
+/// hierarchy_build/<implementation>/<mesh>: items are triangles. Wall clock counts, because some
+/// builders use all cores; processor time of all threads stands beside it. Each build first answers
+/// some distances. Missing meshes are left out.
 void add_build_benchmarks(const std::vector<BuildImplementation>& implementations);
 
 }  // namespace lmdbench::experiments

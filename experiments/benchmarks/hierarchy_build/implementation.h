@@ -38,9 +38,6 @@ struct BuildImplementation {
   std::function<std::unique_ptr<HierarchyBuild>(const Surface&)> make;
 };
 
-BuildImplementation surface_build();
-BuildImplementation binary_hierarchy_build();
-BuildImplementation wide_hierarchy_build();
 BuildImplementation fcl_build();
 BuildImplementation embree_build();
 BuildImplementation cgal_build();

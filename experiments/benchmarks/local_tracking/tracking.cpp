@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/methods/registry.h>
 
-#include <benchmarks/every_frame.h>
 #include <benchmarks/local_tracking/implementation.h>
 
 namespace lmdbench::experiments {

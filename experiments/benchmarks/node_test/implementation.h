@@ -36,11 +36,8 @@ struct NodeTestImplementation {
   std::function<std::unique_ptr<NodeTest>(const Setting&)> make;
 };
 
-NodeTestImplementation wide_scalar_test();
 NodeTestImplementation wide_vector_test();
-NodeTestImplementation wide_lifetime_test();
 NodeTestImplementation binary_ray_test();
-NodeTestImplementation binary_line_test();
 
 /// All implementations of this build.
 std::vector<NodeTestImplementation> node_test_implementations();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <benchmarks/global_search/check.h>
+#include <benchmarks/global_search/implementation.h>
 #include <gtest/gtest.h>
 #include <support/tests/shapes_setting.h>
 

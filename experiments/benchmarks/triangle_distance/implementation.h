@@ -20,15 +20,12 @@ struct PairFamily {
   std::size_t size() const { return a.size(); }
 };
 
-/// Task "triangle distance": the distances of many pairs. Each implementation has a file and
-/// receives the whole list, so that batched kernels fit.
+/// Task "triangle distance": the distances of many pairs. Each implementation receives the
+/// whole list, so that batched kernels fit.
 struct DistanceImplementation {
   std::string name;
   std::function<void(const PairFamily& pairs, std::span<double> distances)> run;
 };
-
-DistanceImplementation lmdbench_scalar_distance();
-DistanceImplementation fcl_distance();
 
 /// All implementations of this build.
 std::vector<DistanceImplementation> distance_implementations();

@@ -54,10 +54,6 @@ TrianglePair near_pair(Random& random) {
 
 }  // namespace
 
-std::vector<DistanceImplementation> distance_implementations() {
-  return {lmdbench_scalar_distance(), fcl_distance()};
-}
-
 std::vector<PairFamily> pair_families(std::size_t count) {
   Random random(SEED);
   std::vector<PairFamily> families = {{"random", {}, {}}, {"near", {}, {}}};

@@ -18,9 +18,6 @@ namespace lmdbench::experiments {
 /// A method of the registry, as the experiment configures it or with its default options.
 FrameImplementation method_frame(const std::string& method);
 
-FrameImplementation fcl_cold_frame();
-FrameImplementation fcl_warm_frame();
-
 /// All implementations of this build.
 std::vector<FrameImplementation> frame_implementations();
 

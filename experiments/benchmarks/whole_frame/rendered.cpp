@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/force/aggregation.h>
 
-#include <benchmarks/every_frame.h>
 #include <benchmarks/whole_frame/implementation.h>
 #include <benchmarks/whole_frame/rendered.h>
 
