@@ -57,13 +57,9 @@ std::string laws_header(const std::string& before) {
   return head + "\n" + rule + "|\n";
 }
 
-template <class Value>
-std::string law_cells(Value&& value) {
+std::string law_cells(const std::array<double, LAWS>& values) {
   std::string cells;
-  for (std::size_t law = 0; law < LAWS; ++law) {
-    const double here = value(law);
-    cells += std::isnan(here) ? " - |" : fmt::format(" {:.2g} |", here);
-  }
+  for (const double value : values) cells += std::isnan(value) ? " - |" : fmt::format(" {:.2g} |", value);
   return cells + "\n";
 }
 
@@ -124,7 +120,7 @@ class Report {
       fmt::print(
           "\n{}: {} births and deaths bisected to {:g} of a frame; largest change left, in F_max:\n\n{}|",
           row.scene, row.events, SHORTEST_STEP, laws_header("|"));
-      fmt::print("{}", law_cells([&](std::size_t law) { return row.largest[law]; }));
+      fmt::print("{}", law_cells(row.largest));
       right_ = right_ && row.largest[SIGNED] <= LARGEST_EVENT && row.largest[SHARED] <= LARGEST_EVENT;
       json_["events"][row.scene] = {{"events", row.events},
                                     {"sum", row.largest[SUM]},
@@ -138,8 +134,7 @@ class Report {
             "\n{}: work of {} closed loops of {} steps, radius one cutoff, in F_max c; largest and "
             "mean\n\n{}| largest |",
             row.scene, row.loops, row.steps, laws_header("| |"));
-        fmt::print("{}| mean |{}", law_cells([&](std::size_t law) { return row.largest[law]; }),
-                   law_cells([&](std::size_t law) { return row.mean[law]; }));
+        fmt::print("{}| mean |{}", law_cells(row.largest), law_cells(row.mean));
         json_["loops"][row.scene].push_back(
             {{"steps", row.steps}, {"largest", row.largest}, {"mean", row.mean}});
       }
@@ -167,14 +162,15 @@ class Report {
         "LMDs, {:.2f} critical pairs, {:.2f} merges\n\n{}",
         row.scene, row.frames, row.in_contact, row.separated, row.minima, row.pairs, row.merges,
         laws_header("| largest step [F_max] |"));
-    for (std::size_t k = 0; k < row.laws[SUM].largest.size(); ++k)
-      fmt::print("| {} |{}", k == 0 ? "at the frames" : fmt::format("x 1e{}", k),
-                 law_cells([&](std::size_t law) { return row.laws[law].largest[k]; }));
-    const auto line = [&](const char* name, auto value) {
-      fmt::print("| {} |{}", name, law_cells([&](std::size_t law) {
-                   return row.is_measured(law) ? static_cast<double>(value(row.laws[law])) : std::nan("");
-                 }));
+    const auto line = [&](const std::string& name, auto value) {
+      std::array<double, LAWS> values{};
+      for (std::size_t law = 0; law < LAWS; ++law)
+        values[law] = row.is_measured(law) ? static_cast<double>(value(row.laws[law])) : std::nan("");
+      fmt::print("| {} |{}", name, law_cells(values));
     };
+    for (std::size_t k = 0; k < row.laws[SUM].largest.size(); ++k)
+      line(k == 0 ? "at the frames" : fmt::format("x 1e{}", k),
+           [k](const PathRow::Law& law) { return law.largest[k]; });
     line("steps above 0.25", [](const PathRow::Law& law) { return law.above_quarter; });
     line("difference from the sum where separated",
          [](const PathRow::Law& law) { return law.separated_difference; });
@@ -215,8 +211,7 @@ class Report {
     fmt::print("\n## Tessellation and rounding\n\nLargest change of the force, blob past torus\n\n{}",
                laws_header("| change | poses |"));
     for (const CutRow& row : measure_cuts(200, choice_.seed)) {
-      fmt::print("| {} | {} |{}", row.change, row.poses,
-                 law_cells([&](std::size_t law) { return row.largest[law]; }));
+      fmt::print("| {} | {} |{}", row.change, row.poses, law_cells(row.largest));
       json_["cuts"].push_back({{"change", row.change}, {"largest", row.largest}});
     }
   }
@@ -231,7 +226,7 @@ class Report {
     fmt::print(
         "\nbunny-5k in place of bunny-16k, every {}th frame of the soft path: RMS difference over RMS "
         "force\n\n{}|{}",
-        stride, laws_header("|"), law_cells([&](std::size_t law) { return apart[law]; }));
+        stride, laws_header("|"), law_cells(apart));
     json_["decimation"] = apart;
   }
 
@@ -239,8 +234,7 @@ class Report {
     fmt::print("\n## Sphere in a spherical cup\n\nMean force over that of smooth surfaces, which is 1\n\n{}",
                laws_header("| cup radius / sphere radius | triangles each |"));
     for (const CupRow& row : measure_cups(choice_.seed)) {
-      fmt::print("| {:g} | {} |{}", row.cup_radius, row.triangles,
-                 law_cells([&](std::size_t law) { return row.mean[law]; }));
+      fmt::print("| {:g} | {} |{}", row.cup_radius, row.triangles, law_cells(row.mean));
       json_["cups"].push_back({{"ratio", row.cup_radius}, {"triangles", row.triangles}, {"mean", row.mean}});
     }
   }
@@ -251,8 +245,7 @@ class Report {
         "in)\n\n{}",
         laws_header("| half angle [degrees] |"));
     for (const NotchRow& row : measure_notches()) {
-      fmt::print("| {:g} |{}", row.half_angle_degrees,
-                 law_cells([&](std::size_t law) { return row.outwards[law]; }));
+      fmt::print("| {:g} |{}", row.half_angle_degrees, law_cells(row.outwards));
       json_["notches"].push_back(
           {{"half_angle_degrees", row.half_angle_degrees}, {"outwards", row.outwards}});
     }
@@ -292,7 +285,7 @@ class Report {
          measure_drag(choice_.device, choice_.spots, choice_.seed, choice_.layered_too)) {
       const auto line = [&](const char* name, const std::array<double, LAWS>& values) {
         fmt::print("| {:g} | {} | {} |{}", row.stiffness_n_per_m, row.spots - row.through, name,
-                   law_cells([&](std::size_t law) { return values[law]; }));
+                   law_cells(values));
       };
       line("above 30 Hz", row.above_30_hz);
       line("largest change", row.largest_jump);

@@ -111,16 +111,6 @@ nlohmann::json slope(const std::vector<double>& triangles, const std::vector<std
   return {{"slope", value}, {"low", quantile(samples, 0.025)}, {"high", quantile(samples, 0.975)}};
 }
 
-/// A method with its last set.
-struct Runner {
-  std::unique_ptr<Method> method;
-  LmdSet lmds;
-  void search(const Pose& pose) {
-    WorkCounters ignored;
-    method->search(pose, lmds, ignored);
-  }
-};
-
 class Study {
  public:
   explicit Study(const Choice& choice) : choice_(choice) {
@@ -164,8 +154,8 @@ class Study {
     for (std::size_t i = 0; i < choice_.poses; ++i)
       slides.push_back(slide(box.sizes().z() + GAP * DIAGONAL, box.sizes().x(), random));
 
-    Runner scratch{make_method("certified", scene, {{"frame_coherence", false}}), {}};
-    Runner coherent{make_method("certified", scene), {}};
+    scaling::Runner scratch{make_method("certified", scene, {{"frame_coherence", false}})};
+    scaling::Runner coherent{make_method("certified", scene)};
     const auto slide_to = [&](std::size_t pose) {
       for (std::size_t frame = 0; frame + 1 < slides[pose].size(); ++frame)
         coherent.search(slides[pose][frame]);
@@ -174,7 +164,7 @@ class Study {
     for (std::size_t i = 0; i < slides.size(); ++i) {
       slide_to(i);
       bool right = true;
-      for (Runner* runner : {&scratch, &coherent}) {
+      for (scaling::Runner* runner : {&scratch, &coherent}) {
         runner->search(slides[i].back());
         right = right && runner->lmds.size() == 1 &&
                 std::abs(runner->lmds[0].distance - GAP * DIAGONAL) <= 1e-9 * DIAGONAL;
@@ -213,7 +203,7 @@ class Study {
 
   const Choice& choice_;
   std::vector<Pose> grazing_;
-  Runner bunny_;
+  scaling::Runner bunny_;
 };
 
 int run(const Choice& choice) {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/methods/registry.h>
-
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -20,26 +18,18 @@
 namespace lmdbench::recall_study {
 namespace {
 
-std::vector<LmdSet> true_sets(Scene scene, double cutoff, const std::vector<Pose>& poses) {
-  scene.cutoff = cutoff;
-  const std::unique_ptr<Method> exhaustive = make_method("exhaustive", scene);
-  std::vector<LmdSet> truth(poses.size());
-  WorkCounters counters;
-  for (std::size_t i = 0; i < poses.size(); ++i) exhaustive->search(poses[i], truth[i], counters);
-  return truth;
-}
-
 void print_table(const std::string& title, const std::vector<VariantResult>& results) {
   fmt::print("\n{}\n\n", title);
   fmt::print(
       "| variant | found of true | recall | precision | recall, adjacent | precision, adjacent | poses with "
       "loss | nearest missed |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
-  for (const VariantResult& result : results)
+  for (const VariantResult& result : results) {
+    const Agreement &same = result.error.same, &neighbours = result.error.neighbours;
     fmt::print("| {} | {} of {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {} | {} |\n", result.variant.label,
-               result.same.found, result.same.true_lmds, result.same.recall(), result.same.precision(),
-               result.neighbours.recall(), result.neighbours.precision(), result.poses_with_loss,
-               result.minimum_missed);
+               same.found, same.true_lmds, same.recall(), same.precision(), neighbours.recall(),
+               neighbours.precision(), result.poses_with_loss, result.error.minimum_missed);
+  }
 }
 
 nlohmann::json to_json(const VariantResult& result) {
@@ -47,13 +37,13 @@ nlohmann::json to_json(const VariantResult& result) {
           {"method", result.variant.method},
           {"options", result.variant.options},
           {"trackings", result.variant.trackings},
-          {"set", experiments::error_json(result.same, result.neighbours)},
+          {"set", experiments::error_json(result.error.same, result.error.neighbours)},
           {"poses_with_loss", result.poses_with_loss},
-          {"minimum_missed", result.minimum_missed}};
+          {"minimum_missed", result.error.minimum_missed}};
 }
 
 std::vector<VariantResult> judge_all(const std::vector<Variant>& variants, const Scene& scene,
-                                     const std::vector<Pose>& poses, const std::vector<LmdSet>& truth) {
+                                     const std::vector<Pose>& poses, const experiments::Truth& truth) {
   std::vector<VariantResult> results;
   for (const Variant& variant : variants) results.push_back(judge(variant, scene, poses, truth));
   return results;
@@ -68,8 +58,8 @@ int measure_recall(const experiments::StudyChoice& choice) {
              choice.scene.fixed, poses.size(), 100.0 * choice.scene.gap, choice.seed);
 
   // The cutoff only decides whether an LMD counts: the truth of the largest contains the others.
-  const double largest = *std::max_element(choice.cutoffs.begin(), choice.cutoffs.end());
-  const std::vector<LmdSet> all_truth = true_sets(scene, largest * diagonal, poses);
+  scene.cutoff = *std::max_element(choice.cutoffs.begin(), choice.cutoffs.end()) * diagonal;
+  const experiments::Truth all_truth = experiments::exhaustive_truth(scene, poses);
 
   nlohmann::json report = {{"moving", choice.scene.moving}, {"fixed", choice.scene.fixed},
                            {"diagonal_m", diagonal},        {"gap", choice.scene.gap},
@@ -77,13 +67,13 @@ int measure_recall(const experiments::StudyChoice& choice) {
   bool cones_conservative = true;
   for (const double cutoff : choice.cutoffs) {
     scene.cutoff = cutoff * diagonal;
-    std::vector<LmdSet> truth;
+    experiments::Truth truth;
     for (const LmdSet& set : all_truth) truth.push_back(within_cutoff(set, scene.cutoff));
     const std::vector<VariantResult> improved = judge_all(improved_variants(), scene, poses, truth);
     const std::vector<VariantResult> original = judge_all(original_variants(), scene, poses, truth);
     print_table(fmt::format("### Improved, cutoff {:g} % of the diagonal", 100.0 * cutoff), improved);
     print_table(fmt::format("### Original, cutoff {:g} % of the diagonal", 100.0 * cutoff), original);
-    cones_conservative = cones_conservative && improved.front().same.missed() == 0;
+    cones_conservative = cones_conservative && improved.front().error.same.missed() == 0;
     nlohmann::json entry = {{"cutoff", cutoff}};
     for (const VariantResult& result : improved) entry["improved"].push_back(to_json(result));
     for (const VariantResult& result : original) entry["original"].push_back(to_json(result));

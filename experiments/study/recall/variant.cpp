@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <study/recall/variant.h>
 
-#include <cmath>
 #include <numbers>
 
 namespace lmdbench::recall_study {
@@ -11,19 +10,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Relative to the true minimum distance.
-constexpr double MINIMUM_TOLERANCE = 1e-6;
-
 /// From "only exact directions" to "any direction"; decision E5's sweep.
 constexpr double G5_TOLERANCES_RAD[] = {
     0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.25, std::numbers::pi / 2.0, std::numbers::pi};
-
-bool misses_minimum(const LmdSet& truth, const LmdSet& reported) {
-  if (truth.empty()) return false;
-  const double true_minimum = minimum_distance(truth);
-  // Written so that NaN, when nothing is reported, counts as missed.
-  return !(std::abs(minimum_distance(reported) - true_minimum) <= MINIMUM_TOLERANCE * true_minimum);
-}
 
 }  // namespace
 
@@ -65,7 +54,7 @@ std::vector<Variant> original_variants() {
 }
 
 VariantResult judge(const Variant& variant, const Scene& scene, const std::vector<Pose>& poses,
-                    const std::vector<LmdSet>& truth) {
+                    const experiments::Truth& truth) {
   VariantResult result;
   result.variant = variant;
   const std::unique_ptr<Method> method = make_method(variant.method, scene, variant.options);
@@ -75,11 +64,9 @@ VariantResult judge(const Variant& variant, const Scene& scene, const std::vecto
     method->search(poses[i], lmds, counters);
     for (int k = 0; k < variant.trackings; ++k) method->track(poses[i], lmds, counters);
     const LmdSet reported = distinct_pairs(within_cutoff(lmds, scene.cutoff));
-    const Agreement same = agreement(truth[i], reported, Match::SAME_FEATURES, scene);
-    result.same += same;
-    result.neighbours += agreement(truth[i], reported, Match::NEIGHBOURING_FEATURES, scene);
-    if (same.missed() > 0) ++result.poses_with_loss;
-    if (misses_minimum(truth[i], reported)) ++result.minimum_missed;
+    const auto missed_before = result.error.same.missed();
+    result.error.add(Promise::APPROXIMATION, "", scene, truth[i], &reported, minimum_distance(reported));
+    if (result.error.same.missed() > missed_before) ++result.poses_with_loss;
   }
   return result;
 }

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/agreement.h>
 #include <lmdbench/methods/registry.h>
+
+#include <support/lmd_error.h>
 
 #include <string>
 #include <vector>
@@ -28,17 +29,14 @@ std::vector<Variant> original_variants();
 /// Sums over all poses at one cutoff.
 struct VariantResult {
   Variant variant;
-  Agreement same;                   ///< Same features, each pair once.
-  Agreement neighbours;             ///< Neighbouring features count, each pair once.
+  /// Each pair once. Where the minimum is missed, the main part of the force is wrong.
+  experiments::LmdError error;
   std::size_t poses_with_loss = 0;  ///< Poses where a true LMD's feature pair is missing.
-  /// Poses where no reported LMD has the true minimum distance (relative 1e-6): the main part of
-  /// the force is wrong.
-  std::size_t minimum_missed = 0;
 };
 
 /// Runs a variant at every pose and compares it with the truth there.
 /// @param truth true LMDs within the scene's cutoff at each pose
 VariantResult judge(const Variant& variant, const Scene& scene, const std::vector<Pose>& poses,
-                    const std::vector<LmdSet>& truth);
+                    const experiments::Truth& truth);
 
 }  // namespace lmdbench::recall_study

@@ -35,33 +35,6 @@ void judge(Series& series, const LmdSet& truth, const LmdSet& lmds, const Scene&
   series.neighbours += agreement(truth, reported, Match::NEIGHBOURING_FEATURES, scene);
 }
 
-/// `certified`, run along the slide that leads to each pose.
-class CertifiedRunner {
- public:
-  CertifiedRunner(const Scene& scene, bool coherent, const std::vector<Pose>& poses,
-                  const std::vector<std::vector<Pose>>& slides)
-      : poses_(poses), slides_(slides) {
-    method_ = make_method("certified", scene, {{"frame_coherence", coherent}});
-  }
-  void slide(std::size_t pose) {
-    WorkCounters ignored;
-    for (const Pose& frame : slides_[pose]) method_->search(frame, lmds_, ignored);
-  }
-  void search(std::size_t pose) {
-    counters_ = WorkCounters{};
-    method_->search(poses_[pose], lmds_, counters_);
-  }
-  const LmdSet& lmds() const { return lmds_; }
-  const WorkCounters& counters() const { return counters_; }
-
- private:
-  const std::vector<Pose>& poses_;
-  const std::vector<std::vector<Pose>>& slides_;
-  std::unique_ptr<Method> method_;
-  LmdSet lmds_;
-  WorkCounters counters_;
-};
-
 std::string minimum_objection(double minimum, const MeasureChoice& choice, double cutoff) {
   if (choice.gap > cutoff) return std::isnan(minimum) ? "" : "found something beyond the cutoff";
   const double relative = std::abs(minimum - choice.gap) / choice.gap;
@@ -111,26 +84,31 @@ Measurement measure(const Scene& scene, const std::vector<Pose>& poses, const Me
   std::vector<experiments::TimedTask> tasks;
   std::vector<LmdSet> truth(poses.size());
 
-  CertifiedRunner scratch(scene, false, poses, slides), sliding(scene, false, poses, slides),
-      coherent(scene, true, poses, slides);
-  const auto add_certified = [&](const std::string& name, CertifiedRunner& runner, bool slides_first) {
+  const auto certified = [&](bool coherent) {
+    return Runner{make_method("certified", scene, {{"frame_coherence", coherent}})};
+  };
+  Runner scratch = certified(false), sliding = certified(false), coherent = certified(true);
+  const auto slide_to = [&slides](Runner& runner, std::size_t pose) {
+    for (const Pose& frame : slides[pose]) runner.search(frame);
+  };
+  const auto add_certified = [&](const std::string& name, Runner& runner, bool slides_first) {
     Series series;
     series.name = name;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      if (slides_first) runner.slide(i);
-      runner.search(i);
-      series.counters.push_back(runner.counters());
-      if (result.series.empty()) truth[i] = runner.lmds();
-      const std::string wrong = minimum_objection(minimum_distance(runner.lmds()), choice, scene.cutoff);
+      if (slides_first) slide_to(runner, i);
+      runner.search(poses[i]);
+      series.counters.push_back(runner.counters);
+      if (result.series.empty()) truth[i] = runner.lmds;
+      const std::string wrong = minimum_objection(minimum_distance(runner.lmds), choice, scene.cutoff);
       if (!wrong.empty() && nearest_pair_is_lmd(scene, poses[i]))
         series.objection = fmt::format("pose {}: {}", i, wrong);
-      if (!same_set(truth[i], runner.lmds()))
+      if (!same_set(truth[i], runner.lmds))
         series.objection = fmt::format("pose {}: not the set that is found from scratch", i);
-      judge(series, truth[i], runner.lmds(), scene);
+      judge(series, truth[i], runner.lmds, scene);
     }
     result.series.push_back(series);
-    experiments::TimedTask task{name, [&runner](std::size_t pose) { runner.search(pose); }};
-    if (slides_first) task.prepare = [&runner](std::size_t pose) { runner.slide(pose); };
+    experiments::TimedTask task{name, [&runner, &poses](std::size_t pose) { runner.search(poses[pose]); }};
+    if (slides_first) task.prepare = [&runner, &slide_to](std::size_t pose) { slide_to(runner, pose); };
     tasks.push_back(std::move(task));
   };
   add_certified("certified", scratch, false);

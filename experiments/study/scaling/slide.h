@@ -3,9 +3,11 @@
 #pragma once
 
 #include <lmdbench/lmd/body.h>
+#include <lmdbench/lmd/method.h>
 
 #include <support/random.h>
 
+#include <memory>
 #include <vector>
 
 namespace lmdbench::scaling {
@@ -20,5 +22,17 @@ inline constexpr double TURN_RAD_PER_FRAME = 0.00061;
 /// @param diagonal of the moving body [m]
 std::vector<Pose> lead_in(const Body& moving, const Body& fixed, const Pose& end, double diagonal,
                           std::size_t frames, experiments::Random& random);
+
+/// A method with its last set.
+struct Runner {
+  std::unique_ptr<Method> method = nullptr;
+  LmdSet lmds = {};
+  WorkCounters counters = {};  ///< Of the last search.
+
+  void search(const Pose& pose) {
+    counters = WorkCounters{};
+    method->search(pose, lmds, counters);
+  }
+};
 
 }  // namespace lmdbench::scaling
