@@ -5,6 +5,7 @@
 #include <lmdbench/phantom/stability_boundary.h>
 
 #include <gtest/gtest.h>
+#include <phantom/closed_form.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>

@@ -61,11 +61,8 @@ void add_init_command(CLI::App& app) {
     ProgressBar bar(talk_welcome());
     const NewExperiment made = new_experiment(
         options->moving, options->fixed, options->out, options->mesh_folder,
-        [&bar, phase = std::string(chosen.contact ? "resting pose" : "path")](std::int64_t done,
-                                                                              std::int64_t total) {
-          bar.update(phase, done, total);
-          return true;
-        },
+        [&bar, phase = std::string(chosen.contact ? "resting pose" : "path")](
+            std::int64_t done, std::int64_t total) { return bar(phase, done, total); },
         chosen);
     bar.wipe();
     write_new_experiment(made);

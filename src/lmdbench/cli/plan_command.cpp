@@ -43,11 +43,7 @@ void add_plan_command(CLI::App& app) {
     const Experiment experiment = options->experiment.load();
     ProgressBar bar(talk_welcome());
     const PreparedRun prepared = prepare(
-        experiment,
-        [&bar](std::int64_t done, std::int64_t total) {
-          bar.update("path", done, total);
-          return true;
-        },
+        experiment, [&bar](std::int64_t done, std::int64_t total) { return bar("path", done, total); },
         Deforming::FOLLOWED);
     Plan plan = make_plan(experiment);
     const std::vector<bool> in_contact =

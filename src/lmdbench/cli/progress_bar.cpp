@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
 
 #include <fmt/format.h>
@@ -62,6 +63,11 @@ void ProgressBar::update(const std::string& phase, std::int64_t done, std::int64
   fmt::print(stderr, "\r{}\x1b[K", progress_line(phase, done, total, elapsed));
   std::fflush(stderr);
   drawn_ = true;
+}
+
+bool ProgressBar::operator()(const std::string& phase, std::int64_t done, std::int64_t total) {
+  update(phase, done, total);
+  return !stop_requested();
 }
 
 void ProgressBar::wipe() {

@@ -21,6 +21,8 @@ class ProgressBar {
   /// Draws at most ten times a second. A new phase starts a new clock, but not a new line.
   /// @param total negative if unknown: only the phase is shown
   void update(const std::string& phase, std::int64_t done, std::int64_t total);
+  /// As a run's progress (`std::ref`): the same, and true unless `stop_requested`.
+  bool operator()(const std::string& phase, std::int64_t done, std::int64_t total);
   void wipe();
 
  private:

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -39,11 +40,7 @@ void record(const RecordOptions& options) {
   refuse_unsafe_output(options.out, {.what = "recorded path", .is_ours = &is_recorded_path},
                        input_files(experiment), "--out");
   ProgressBar bar(talk_welcome());
-  const Path path = record_path(experiment, options.every,
-                                [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
-                                  bar.update(phase, done, total);
-                                  return true;
-                                });
+  const Path path = record_path(experiment, options.every, std::ref(bar));
   bar.wipe();
   write_tum(options.out, path,
             fmt::format("{} '{}', method '{}'", RECORDED_PATH_MARK, experiment.name,

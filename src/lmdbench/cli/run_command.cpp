@@ -18,6 +18,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,13 +47,8 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
   ProgressBar bar(talk_welcome());
   heed_stop_signals();
   try {
-    const RunResult result = run_experiment_to_file(
-        experiment, out, argv,
-        [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
-          bar.update(phase, done, total);
-          return !stop_requested();
-        },
-        options.resume ? Leftover::RESUME : Leftover::REFUSE);
+    const RunResult result = run_experiment_to_file(experiment, out, argv, std::ref(bar),
+                                                    options.resume ? Leftover::RESUME : Leftover::REFUSE);
     bar.wipe();
     if (result.resumed_frames > 0)
       spdlog::info("the times of {} frames are those of the interrupted run", result.resumed_frames);

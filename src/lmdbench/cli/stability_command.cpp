@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,13 +28,7 @@ struct StabilityOptions {
 bool search(const StabilityOptions& options) {
   const Experiment experiment = options.experiment.load();
   ProgressBar bar(talk_welcome());
-  const std::vector<StabilityRow> rows = find_critical_stiffness(
-      experiment,
-      [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
-        bar.update(phase, done, total);
-        return true;
-      },
-      options.budget);
+  const std::vector<StabilityRow> rows = find_critical_stiffness(experiment, std::ref(bar), options.budget);
   bar.wipe();
   fmt::print("{}{}", options.json ? stability_json(rows) : stability_text(rows), options.json ? "\n" : "");
   bool all = true;

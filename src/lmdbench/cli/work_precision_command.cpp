@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,19 +34,19 @@ void print_points(const Sweep& sweep, const std::filesystem::path& out, bool jso
 }
 
 void measure_points(const SweepOptions& options, const Sweep& sweep, const std::filesystem::path& out,
-                    const RunProgress& progress) {
+                    ProgressBar& bar) {
   const std::vector<std::size_t> points =
       parse_point_numbers(options.points, sweep.points.size(), "--points");
-  const SweepWork work = measure_part(sweep, points, out, progress);
+  const SweepWork work = measure_part(sweep, points, out, std::ref(bar));
   for (const auto& [point, why] : work.failures) spdlog::warn("point {} has no numbers: {}", point, why);
   spdlog::info("{} of {} traversals were done before; the entries are in {}", work.resumed_runs,
                sweep.repetitions * std::ssize(points), parts_folder(out).string());
 }
 
 void measure_or_collect(const SweepOptions& options, const Sweep& sweep, const std::filesystem::path& out,
-                        const std::vector<std::string>& argv, ProgressBar& bar, const RunProgress& progress) {
+                        const std::vector<std::string>& argv, ProgressBar& bar) {
   const SweepResult result = options.collect ? collect_sweep_to_file(sweep, out, argv)
-                                             : run_sweep_to_file(sweep, out, argv, progress);
+                                             : run_sweep_to_file(sweep, out, argv, std::ref(bar));
   bar.wipe();
   if (options.json)
     fmt::print("{}\n", sweep_json(sweep, result));
@@ -64,15 +65,11 @@ void sweep_to_file(const SweepOptions& options, const std::vector<std::string>& 
   if (options.list) return print_points(sweep, out, options.json);
   ProgressBar bar(talk_welcome());
   heed_stop_signals();
-  const RunProgress progress = [&bar](const std::string& phase, std::int64_t done, std::int64_t total) {
-    bar.update(phase, done, total);
-    return !stop_requested();
-  };
   try {
     if (options.points.empty())
-      measure_or_collect(options, sweep, out, argv, bar, progress);
+      measure_or_collect(options, sweep, out, argv, bar);
     else
-      measure_points(options, sweep, out, progress);
+      measure_points(options, sweep, out, bar);
   } catch (const Interrupted&) {
     bar.wipe();
     spdlog::error("interrupted: the points that are done stay in {}; the same command goes on from there",

@@ -183,8 +183,20 @@ std::string headline(const Comparison& comparison) {
   return "unsure: results are the same bits, but the times cannot be told apart";
 }
 
-std::string microseconds(double seconds) {
-  return fmt::format("{:.4g}", seconds * 1e6);
+/// [us], or as it is where the machines cannot be compared.
+std::string time_text(const Comparison& comparison, double seconds) {
+  return fmt::format("{:.4g}", comparison.machine.comparable ? seconds * 1e6 : seconds);
+}
+
+/// What else a reader must know, a line each.
+std::string remarks(const Comparison& comparison, const std::string& mark, const std::string& note_mark) {
+  std::string text;
+  for (const std::string& reason : comparison.machine.reasons)
+    text += fmt::format("{}machines differ: {}\n", mark, reason);
+  for (const std::string& note : comparison.machine.build_notes)
+    text += fmt::format("{}builds differ: {}\n", mark, note);
+  for (const std::string& note : comparison.notes) text += note_mark + note + "\n";
+  return text;
 }
 
 std::string detectable(const Timing& timing) {
@@ -230,19 +242,14 @@ std::string comparison_text(const Comparison& comparison) {
                         "stage", comparison.machine.comparable ? "base [us]" : "base", "candidate", "ratio",
                         "interval", "detectable", "verdict");
     for (const Timing& t : comparison.timings) {
-      const auto value = [&](double v) {
-        return comparison.machine.comparable ? microseconds(v) : fmt::format("{:.4g}", v);
-      };
       text += fmt::format("  {:<{}}  {:<15}  {:>10}  {:>10}  {:>6.3f}  {:>14}  {:>10}  {}\n", t.method, width,
-                          t.stage, value(t.base_seconds), value(t.candidate_seconds), t.estimate.ratio,
-                          interval(t), detectable(t), verdict_name(t.verdict));
+                          t.stage, time_text(comparison, t.base_seconds),
+                          time_text(comparison, t.candidate_seconds), t.estimate.ratio, interval(t),
+                          detectable(t), verdict_name(t.verdict));
       if (!t.work.empty()) text += fmt::format("  {:<{}}  {}\n", "", width, t.work);
     }
   }
-  for (const std::string& reason : comparison.machine.reasons) text += "machines differ: " + reason + "\n";
-  for (const std::string& note : comparison.machine.build_notes) text += "builds differ: " + note + "\n";
-  for (const std::string& note : comparison.notes) text += "note: " + note + "\n";
-  return text;
+  return text + remarks(comparison, "", "note: ");
 }
 
 std::string comparison_markdown(const Comparison& comparison) {
@@ -259,21 +266,14 @@ std::string comparison_markdown(const Comparison& comparison) {
         comparison.machine.comparable ? " [us]" : "");
     text += "|---|---|---|---|---|---|---|---|\n";
     for (const Timing& t : comparison.timings) {
-      const auto value = [&](double v) {
-        return comparison.machine.comparable ? microseconds(v) : fmt::format("{:.4g}", v);
-      };
       text += fmt::format("| {} | {} | {} | {} | {:.3f} | {} | {} | {}{} |\n", t.method, t.stage,
-                          value(t.base_seconds), value(t.candidate_seconds), t.estimate.ratio, interval(t),
-                          detectable(t), verdict_name(t.verdict), t.work.empty() ? "" : "; " + t.work);
+                          time_text(comparison, t.base_seconds), time_text(comparison, t.candidate_seconds),
+                          t.estimate.ratio, interval(t), detectable(t), verdict_name(t.verdict),
+                          t.work.empty() ? "" : "; " + t.work);
     }
   }
-  if (!comparison.machine.reasons.empty() || !comparison.machine.build_notes.empty() ||
-      !comparison.notes.empty())
-    text += "\n";
-  for (const std::string& reason : comparison.machine.reasons) text += "- machines differ: " + reason + "\n";
-  for (const std::string& note : comparison.machine.build_notes) text += "- builds differ: " + note + "\n";
-  for (const std::string& note : comparison.notes) text += "- " + note + "\n";
-  return text;
+  const std::string tail = remarks(comparison, "- ", "- ");
+  return text + (tail.empty() ? "" : "\n") + tail;
 }
 
 }  // namespace lmdbench

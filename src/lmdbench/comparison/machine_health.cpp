@@ -23,7 +23,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <vector>
 
@@ -153,19 +152,6 @@ std::string hardware_counters() {
   return "yes";
 }
 
-/// "0-1,4" as numbers.
-std::set<int> processor_list(const std::string& text) {
-  std::set<int> numbers;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
-    int first = 0, last = 0;
-    const int found = std::sscanf(part.c_str(), "%d-%d", &first, &last);
-    if (found < 1) continue;
-    for (int i = first; i <= (found == 2 ? last : first); ++i) numbers.insert(i);
-  }
-  return numbers;
-}
-
 std::string smt_siblings() {
   cpu_set_t usable;
   if (::sched_getaffinity(0, sizeof(usable), &usable) != 0) return UNKNOWN;
@@ -177,7 +163,7 @@ std::string smt_siblings() {
         first_line(fmt::format("/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list", i));
     if (list == UNKNOWN) continue;
     known = true;
-    if (processor_list(list).size() > 1) shared += (shared.empty() ? "" : "; ") + list;
+    if (list.find_first_of(",-") != std::string::npos) shared += (shared.empty() ? "" : "; ") + list;
   }
   if (!known) return UNKNOWN;
   return shared.empty() ? "none" : shared;

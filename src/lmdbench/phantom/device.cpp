@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -49,13 +50,10 @@ constexpr std::array<Device, 6> DEVICES = {{
         .maximum_force = defined(NO_LIMIT, "N"),
         .continuous_force = defined(NO_LIMIT, "N"),
         .position_resolution = defined(0.0, "m"),
-        .stable_stiffness = unknown("N/m"),
-        .stable_damping = unknown("N s/m"),
         .apparent_mass = defined(0.04, "kg"),
         .damping = defined(0.8, "N s/m"),
         .friction = defined(0.0, "N"),
         .torque = defined(NO_LIMIT, "N m"),
-        .workspace = {defined(NO_LIMIT, "m"), defined(NO_LIMIT, "m"), defined(NO_LIMIT, "m")},
     },
     {
         .name = "phantom-desktop",
@@ -63,13 +61,10 @@ constexpr std::array<Device, 6> DEVICES = {{
         .maximum_force = survey(7.9, "N"),
         .continuous_force = survey(1.75, "N"),
         .position_resolution = survey(0.023e-3, "m"),
-        .stable_stiffness = chai3d(1000.0, "N/m"),
-        .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.045, "kg"),
         .damping = MECHANISM_DAMPING,
         .friction = recalled(0.06, "N"),
         .torque = unknown("N m"),
-        .workspace = {survey(0.160, "m"), survey(0.120, "m"), survey(0.120, "m")},
     },
     {
         .name = "phantom-premium-1.5",
@@ -77,13 +72,10 @@ constexpr std::array<Device, 6> DEVICES = {{
         .maximum_force = survey(8.5, "N"),
         .continuous_force = survey(1.4, "N"),
         .position_resolution = survey(0.03e-3, "m"),
-        .stable_stiffness = unknown("N/m"),
-        .stable_damping = unknown("N s/m"),
         .apparent_mass = recalled(0.075, "kg"),  // an upper bound
         .damping = MECHANISM_DAMPING,
         .friction = recalled(0.04, "N"),
         .torque = unknown("N m"),
-        .workspace = {survey(0.381, "m"), survey(0.267, "m"), survey(0.191, "m")},
     },
     {
         .name = "phantom-premium-1.5-6dof",
@@ -91,13 +83,10 @@ constexpr std::array<Device, 6> DEVICES = {{
         .maximum_force = chai3d(8.5, "N"),
         .continuous_force = recalled(1.4, "N"),
         .position_resolution = recalled(0.03e-3, "m"),
-        .stable_stiffness = chai3d(800.0, "N/m"),
-        .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.136, "kg"),  // an upper bound, the larger of two recalled
         .damping = MECHANISM_DAMPING,
         .friction = recalled(0.04, "N"),
         .torque = chai3d(0.188, "N m"),
-        .workspace = {survey(0.381, "m"), survey(0.267, "m"), survey(0.191, "m")},
     },
     {
         .name = "phantom-omni",
@@ -105,13 +94,10 @@ constexpr std::array<Device, 6> DEVICES = {{
         .maximum_force = survey(3.3, "N"),
         .continuous_force = survey(0.88, "N"),
         .position_resolution = survey(0.055e-3, "m"),
-        .stable_stiffness = chai3d(700.0, "N/m"),
-        .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.045, "kg"),
         .damping = MECHANISM_DAMPING,
         .friction = recalled(0.26, "N"),
         .torque = unknown("N m"),
-        .workspace = {survey(0.160, "m"), survey(0.120, "m"), survey(0.070, "m")},
     },
     {
         .name = "phantom-premium-3.0-6dof",
@@ -119,31 +105,14 @@ constexpr std::array<Device, 6> DEVICES = {{
         .maximum_force = chai3d(22.0, "N"),
         .continuous_force = recalled(3.0, "N"),
         .position_resolution = recalled(0.02e-3, "m"),
-        .stable_stiffness = chai3d(1000.0, "N/m"),
-        .stable_damping = chai3d(5.0, "N s/m"),
         .apparent_mass = recalled(0.159, "kg"),  // an upper bound
         .damping = MECHANISM_DAMPING,
         .friction = recalled(0.2, "N"),
         .torque = chai3d(0.188, "N m"),
-        .workspace = {recalled(0.838, "m"), recalled(0.584, "m"), recalled(0.406, "m")},
     },
 }};
 
 }  // namespace
-
-std::string_view to_string(Trust trust) {
-  switch (trust) {
-    case Trust::STATED:
-      return "stated";
-    case Trust::FROM_MEMORY:
-      return "from memory";
-    case Trust::DEFINED:
-      return "defined";
-    case Trust::UNKNOWN:
-      return "unknown";
-  }
-  return "unknown";
-}
 
 std::span<const Device> known_devices() {
   return DEVICES;

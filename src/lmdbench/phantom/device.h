@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -17,9 +16,6 @@ enum class Trust : std::uint8_t {
   DEFINED,      ///< True by definition: the ideal device's.
   UNKNOWN       ///< No figure was found: the value is NaN.
 };
-
-/// "stated", "from memory", "defined" or "unknown".
-std::string_view to_string(Trust trust);
 
 /// One figure of a device, with its source.
 struct DeviceFigure {
@@ -38,13 +34,10 @@ struct Device {
   DeviceFigure maximum_force;        ///< Largest force, for moments [N]: the limit of decision E10.
   DeviceFigure continuous_force;     ///< Force that the motors can hold for long [N].
   DeviceFigure position_resolution;  ///< Nominal [m].
-  DeviceFigure stable_stiffness;     ///< Largest stiffness that CHAI3D sets for it [N/m].
-  DeviceFigure stable_damping;       ///< Largest damping that CHAI3D sets for it [N s/m].
   DeviceFigure apparent_mass;        ///< At the stylus [kg].
   DeviceFigure damping;              ///< Viscous damping of the mechanism [N s/m].
   DeviceFigure friction;             ///< Back-drive friction [N].
   DeviceFigure torque;  ///< Largest torque [N m], if actuated; only a continuous one is published.
-  std::array<DeviceFigure, 3> workspace;  ///< Width, height, depth [m].
 };
 
 /// All known devices, in a fixed order.

@@ -17,8 +17,10 @@ Hand hand(const char* name, double mass, double damping, double stiffness, doubl
   return {name, mass, damping, stiffness, grip_damping, grip_stiffness};
 }
 
+}  // namespace
+
 /// Arms differ a hundredfold between publications; none is the average person.
-const std::array<KnownHand, 5>& hands() {
+std::span<const KnownHand> known_hands() {
   static const std::array<KnownHand, 5> table{{
       {hand("postural-arm", 0.554, 6.45, 135.0), "Scientific Reports 5:18004 (2015), figure 3, one trial",
        Trust::STATED},
@@ -32,15 +34,9 @@ const std::array<KnownHand, 5>& hands() {
   return table;
 }
 
-}  // namespace
-
-std::span<const KnownHand> known_hands() {
-  return hands();
-}
-
 const Hand& hand_named(std::string_view name, std::string_view file, std::string_view pointer) {
   std::vector<std::string_view> names;
-  for (const KnownHand& known : hands()) {
+  for (const KnownHand& known : known_hands()) {
     if (known.hand.name == name) return known.hand;
     names.push_back(known.hand.name);
   }

@@ -48,9 +48,4 @@ double spectral_radius(const SampledLoop& loop, double stiffness);
 /// the device, does not count. With a turn: the point's, 1 / (1 / b + lever_m^2 / b_rotation).
 double sufficient_stiffness(const SampledLoop& loop);
 
-/// Closed form without hand and delay, where the pair of complex eigenvalues reaches the circle
-/// before a real one reaches -1: K = b^2 (1 - a) / (m (1 - a - a b T / m)), a = e^(-b T / m). The
-/// other is at K = 2 b^2 (1 + a) / (b T (1 + a) - 2 m (1 - a)); the lesser is the boundary.
-double critical_stiffness_without_delay(double mass_kg, double damping_n_s_per_m, double period_s);
-
 }  // namespace lmdbench

@@ -56,20 +56,6 @@ void render_laws(TruthFrame& here, ContactFinder& contacts, const Scene& scene, 
 
 }  // namespace
 
-std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
-                                        const std::function<TruthFrame(std::int64_t frame)>& truth_at,
-                                        const Progress& progress) {
-  std::vector<TruthFrame> truth;
-  for (const std::int64_t frame : frames) {
-    TruthFrame here = truth_at(frame);
-    here.frame = frame;
-    here.force_jump = change_of_force(here, truth_at(frame + 1));
-    truth.push_back(std::move(here));
-    tell_progress(progress, truth.size(), frames.size());
-  }
-  return truth;
-}
-
 std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input, const ForceProfile& profile,
                                     const Aggregation& aggregation, const std::vector<std::int64_t>& frames,
                                     const Progress& progress, const std::vector<bool>* in_contact,
@@ -102,7 +88,15 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input
     }
     return found;
   };
-  return truth_of_frames(frames, search, progress);
+  std::vector<TruthFrame> truth;
+  for (const std::int64_t frame : frames) {
+    TruthFrame here = search(frame);
+    here.frame = frame;
+    here.force_jump = change_of_force(here, search(frame + 1));
+    truth.push_back(std::move(here));
+    tell_progress(progress, truth.size(), frames.size());
+  }
+  return truth;
 }
 
 std::int64_t TruthFrame::contact_without_direction() const {

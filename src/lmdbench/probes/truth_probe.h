@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -89,14 +88,7 @@ struct TruthFindings : ProbeFindings {
 /// Angle between two forces [rad]; NaN where one of them vanishes.
 double force_angle(const Vec3& a, const Vec3& b);
 
-/// Truth at the given frames, with the force's jump to the next frame.
-/// @param truth_at set and rendered forces of a frame
-/// @throws Interrupted when `progress` asks to stop
-std::vector<TruthFrame> truth_of_frames(const std::vector<std::int64_t>& frames,
-                                        const std::function<TruthFrame(std::int64_t frame)>& truth_at,
-                                        const Progress& progress);
-
-/// Computes truth at the given frames.
+/// Computes truth at the given frames, with the force's jump to the next frame.
 /// @param profile  of the scene; its law is ignored
 /// @param aggregation  makes the true forces from the exhaustive sets
 /// @param in_contact  one a frame, if frames out of contact need no search (empty sets); or null

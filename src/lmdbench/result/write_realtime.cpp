@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/realtime/lateness.h>
 #include <lmdbench/result/write_result.h>
+#include <lmdbench/result_file/write_column.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <utility>
 
 namespace lmdbench {
@@ -59,10 +58,6 @@ struct RunLateness {
   }
 };
 
-void write_values(ResultWriter& writer, const DatasetInfo& info, const std::vector<double>& values) {
-  writer.write(info, std::span<const double>(values), {values.size()});
-}
-
 void write_tick_times(ResultWriter& writer, const std::string& group, const TickTimes& times,
                       std::int64_t start) {
   write_values(writer, {group + "/asked", "s", "instant that the loop slept until, since the servo's start"},
@@ -93,34 +88,26 @@ void write_role(ResultWriter& writer, const std::string& group, const RoleRecord
   writer.attribute(group, "involuntary_switches", role.use.involuntary_switches);
 }
 
-/// A column of a table of quantiles.
-template <typename Row>
-std::vector<double> projected(const std::vector<Row>& rows, double Row::*member) {
-  std::vector<double> values;
-  for (const Row& row : rows) values.push_back(row.*member);
-  return values;
-}
-
 template <typename Row>
 void write_quantiles(ResultWriter& writer, const std::string& group, const std::string& of,
                      const std::vector<Row>& rows) {
   writer.attribute(group, "interval", std::string("95 %, block bootstrap"));
-  write_values(writer, {group + "/value", "s", "quantile of " + of}, projected(rows, &Row::value));
-  write_values(writer, {group + "/low", "s", "lower end of its interval"}, projected(rows, &Row::low));
-  write_values(writer, {group + "/high", "s", "upper end of its interval"}, projected(rows, &Row::high));
+  write_column(writer, {group + "/value", "s", "quantile of " + of}, rows,
+               [](const Row& row) { return row.value; });
+  write_column(writer, {group + "/low", "s", "lower end of its interval"}, rows,
+               [](const Row& row) { return row.low; });
+  write_column(writer, {group + "/high", "s", "upper end of its interval"}, rows,
+               [](const Row& row) { return row.high; });
 }
 
 void write_series(ResultWriter& writer, const std::string& group, const std::string& of,
                   const std::vector<double>& seconds, const Lateness& lateness) {
   const std::vector<LatenessQuantile> quantiles = lateness.quantiles();
   write_quantiles(writer, group, of, quantiles);
-  std::vector<std::int64_t> above;
-  for (const LatenessQuantile& quantile : quantiles) above.push_back(quantile.above);
-  writer.write({group + "/above", "1", "instants above it"}, std::span<const std::int64_t>(above),
-               {above.size()});
-  const std::vector<std::int64_t> counts = lateness_histogram(seconds);
-  writer.write({group + "/histogram", "1", "instants by bin of edges; one more above the last edge"},
-               std::span<const std::int64_t>(counts), {counts.size()});
+  write_column(writer, {group + "/above", "1", "instants above it"}, quantiles,
+               [](const LatenessQuantile& quantile) { return quantile.above; });
+  write_values(writer, {group + "/histogram", "1", "instants by bin of edges; one more above the last edge"},
+               lateness_histogram(seconds));
   writer.attribute(group, "maximum_s", lateness.maximum());
   writer.attribute(group, "instants", static_cast<std::int64_t>(lateness.size()));
 }
@@ -130,7 +117,7 @@ void write_lateness(ResultWriter& writer, const std::string& group, const Realti
   const Lateness servo(late.servo), response(late.response), floor(late.floor),
       floor_response(late.floor_response);
   write_values(writer, {group + "/share", "1", "shares of the quantiles"},
-               {LATENESS_SHARES.begin(), LATENESS_SHARES.end()});
+               std::vector<double>(LATENESS_SHARES.begin(), LATENESS_SHARES.end()));
   write_values(writer, {group + "/edges", "s", "upper edges of the histograms' bins"}, lateness_edges());
   write_series(writer, group + "/servo", "the servo loop's lateness, woken minus asked", late.servo, servo);
   write_series(writer, group + "/response", "the force's lateness, done minus asked", late.response,
@@ -143,18 +130,14 @@ void write_lateness(ResultWriter& writer, const std::string& group, const Realti
 }
 
 void write_grants(ResultWriter& writer, const std::string& group, const std::vector<Grant>& grants) {
-  const auto texts = [&](const std::string& name, const std::string& long_name, std::string Grant::*member) {
-    std::vector<std::string> values;
-    for (const Grant& grant : grants) values.push_back(grant.*member);
-    writer.write({group + "/" + name, "1", long_name}, values);
+  const auto column = [&](const std::string& name, const std::string& long_name, auto Grant::*member) {
+    write_column(writer, {group + "/" + name, "1", long_name}, grants,
+                 [member](const Grant& grant) { return grant.*member; });
   };
-  texts("thread", "who asked", &Grant::thread);
-  texts("asked", "what for", &Grant::asked);
-  texts("reason", "why it was refused; empty where granted", &Grant::reason);
-  std::vector<std::uint8_t> granted;
-  for (const Grant& grant : grants) granted.push_back(grant.granted ? 1 : 0);
-  writer.write({group + "/granted", "1", "1 where the system granted it"},
-               std::span<const std::uint8_t>(granted), {granted.size()});
+  column("thread", "who asked", &Grant::thread);
+  column("asked", "what for", &Grant::asked);
+  column("reason", "why it was refused; empty where granted", &Grant::reason);
+  column("granted", "1 where the system granted it", &Grant::granted);
 }
 
 }  // namespace
@@ -169,8 +152,8 @@ void write_realtime(ResultWriter& writer, const std::vector<RealtimeRecord>& clo
     writer.attribute(group, "stolen_s", clock.stolen_s);
     write_grants(writer, group + "/grants", clock.grants);
     for (const RoleRecord& role : clock.roles) write_role(writer, group + "/" + role.name, role, clock.start);
-    writer.write({group + "/servo/frame", "1", "frame of the result that the tick is for"},
-                 std::span<const std::int64_t>(clock.tick_frame), {clock.tick_frame.size()});
+    write_values(writer, {group + "/servo/frame", "1", "frame of the result that the tick is for"},
+                 clock.tick_frame);
     write_values(
         writer, {group + "/servo/search_age", "s", "time since the pose that the set in use was searched at"},
         seconds_of(clock.search_age));
@@ -179,9 +162,10 @@ void write_realtime(ResultWriter& writer, const std::vector<RealtimeRecord>& clo
     write_lateness(writer, group + "/lateness", clock);
     std::vector<std::uint8_t> sources;
     for (const FrameSource source : clock.frame_source) sources.push_back(static_cast<std::uint8_t>(source));
-    writer.write({group + "/frame_source", "1",
+    write_values(writer,
+                 {group + "/frame_source", "1",
                   "0 a tick, 1 skipped, shown as held, 2 lost to the record, shown as held"},
-                 std::span<const std::uint8_t>(sources), {sources.size()});
+                 sources);
   }
 }
 

@@ -147,12 +147,13 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
       lmd = filed.lmd;
       moving_bodies.push_back(filed.moving_body);
     }
-    writer.write({group + "/moving_body", "1", "which of the movers; 0: the moving mesh"},
-                 std::span<const std::int64_t>(moving_bodies), {moving_bodies.size()});
+    write_values(writer, {group + "/moving_body", "1", "which of the movers; 0: the moving mesh"},
+                 moving_bodies);
   }
-  writer.write({group + "/frame_offset", "1",
+  write_values(writer,
+               {group + "/frame_offset", "1",
                 "frame f owns rows frame_offset[f] to frame_offset[f + 1] - 1; none where its list was lost"},
-               std::span<const std::int64_t>(offsets), {offsets.size()});
+               offsets);
   const auto column = [&](const std::string& name, const std::string& units, const std::string& long_name,
                           auto project) {
     write_column(writer, {group + "/" + name, units, long_name}, rows, project);
@@ -180,19 +181,13 @@ void write_lmd_lists(ResultWriter& writer, const std::string& group, const Metho
 void write_poses(ResultWriter& writer, const std::string& group, const std::vector<Pose>& poses) {
   write_column(writer, {group + "/position", "m", "origin of the moving mesh's frame, world frame"}, poses,
                [](const Pose& p) { return p.translation; });
-  std::vector<double> orientations;
-  for (const Pose& pose : poses) {
-    const auto& q = pose.rotation.coeffs();  // x, y, z, w
-    orientations.insert(orientations.end(), q.data(), q.data() + 4);
-  }
-  writer.write({group + "/orientation", "1", "unit quaternion x, y, z, w of the moving mesh"},
-               std::span<const double>(orientations), {poses.size(), 4});
+  write_column(writer, {group + "/orientation", "1", "unit quaternion x, y, z, w of the moving mesh"}, poses,
+               [](const Pose& p) { return p.rotation; });
 }
 
 void write_in_contact(ResultWriter& writer, const std::string& group, const std::vector<bool>& in_contact) {
-  const std::vector<std::uint8_t> flags(in_contact.begin(), in_contact.end());
-  writer.write({group + "/in_contact", "1", "1 where the meshes are within the cutoff of each other"},
-               std::span<const std::uint8_t>(flags), {flags.size()});
+  write_values(writer, {group + "/in_contact", "1", "1 where the meshes are within the cutoff of each other"},
+               std::vector<std::uint8_t>(in_contact.begin(), in_contact.end()));
 }
 
 /// Findings of the probes along a track.
@@ -267,8 +262,7 @@ void write_method(ResultWriter& writer, const Experiment& experiment, const RunR
 
 void write_path(ResultWriter& writer, const RunResult& result) {
   const PreparedRun& prepared = result.prepared;
-  writer.write({"/path/time", "s", "time of the haptic frame"}, std::span<const double>(prepared.times),
-               {prepared.times.size()});
+  write_values(writer, {"/path/time", "s", "time of the haptic frame"}, prepared.times);
   write_poses(writer, "/path", prepared.input.poses);
   if (prepared.input.motion.movers) write_mover_poses(writer, *prepared.input.motion.movers);
 }

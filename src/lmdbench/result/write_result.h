@@ -9,11 +9,18 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
 /// Results of several movers have a column each: the moving mesh, then the entries of `/movers`.
 namespace lmdbench {
+
+/// A dataset of one axis.
+template <typename Value>
+void write_values(ResultWriter& writer, const DatasetInfo& info, const std::vector<Value>& values) {
+  writer.write(info, std::span<const Value>(values), {values.size()});
+}
 
 /// /path/movers: every pose of every mover.
 void write_mover_poses(ResultWriter& writer, const MoverPlay& play);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/result/write_result.h>
+#include <lmdbench/result_file/write_column.h>
 
 #include <nlohmann/json.hpp>
 
@@ -28,15 +29,10 @@ void write_instances(ResultWriter& writer, const std::string& group, const MeshN
   writer.attribute(group, "first_fixed_body", mesh.first_fixed_body);
   writer.attribute(group, "coincident_instances",
                    static_cast<std::int64_t>(count_coincident(mesh.instances)));
-  std::vector<double> position, orientation;
-  for (const Pose& pose : mesh.instances) {
-    position.insert(position.end(), pose.translation.begin(), pose.translation.end());
-    orientation.insert(orientation.end(), pose.rotation.coeffs().begin(), pose.rotation.coeffs().end());
-  }
-  writer.write({group + "/position", "m", "origin of each instance's frame, world frame"},
-               std::span<const double>(position), {mesh.instances.size(), 3});
-  writer.write({group + "/orientation", "1", "quaternion x, y, z, w of each instance's frame"},
-               std::span<const double>(orientation), {mesh.instances.size(), 4});
+  write_column(writer, {group + "/position", "m", "origin of each instance's frame, world frame"},
+               mesh.instances, [](const Pose& pose) { return pose.translation; });
+  write_column(writer, {group + "/orientation", "1", "quaternion x, y, z, w of each instance's frame"},
+               mesh.instances, [](const Pose& pose) { return pose.rotation; });
 }
 
 /// How a mesh deforms, and what each frame changes of it.
@@ -44,45 +40,36 @@ void write_deformation(ResultWriter& writer, const std::string& group, const Mes
                        const DeformingBody& body) {
   writer.attribute(group, "deformation", to_text(mesh.vertices->deformation()));
   writer.attribute(group, "farthest_m", body.farthest);
-  const auto integers = [&](const char* name, const char* long_name, std::int64_t DeformationStep::*value) {
-    std::vector<std::int64_t> values;
-    for (const DeformationStep& step : body.steps) values.push_back(step.*value);
-    writer.write({group + "/deformation/" + name, "1", long_name}, std::span<const std::int64_t>(values),
-                 {values.size()});
+  const auto column = [&](const char* name, const char* units, const char* long_name,
+                          auto DeformationStep::*value) {
+    write_column(writer, {group + "/deformation/" + name, units, long_name}, body.steps,
+                 [value](const DeformationStep& step) { return step.*value; });
   };
-  integers("moved_vertices", "vertices that moved since the frame before, in the first frame since rest",
-           &DeformationStep::moved_vertices);
-  integers("turned_over", "triangles whose normal turned by more than a right angle since then",
-           &DeformationStep::turned_over);
-  integers("lost_area", "triangles that had an area then and have none", &DeformationStep::lost_area);
-  std::vector<double> moves;
-  for (const DeformationStep& step : body.steps) moves.push_back(step.largest_move);
-  writer.write({group + "/deformation/largest_move", "m", "longest way of a vertex since then"},
-               std::span<const double>(moves), {moves.size()});
+  column("moved_vertices", "1", "vertices that moved since the frame before, in the first frame since rest",
+         &DeformationStep::moved_vertices);
+  column("turned_over", "1", "triangles whose normal turned by more than a right angle since then",
+         &DeformationStep::turned_over);
+  column("lost_area", "1", "triangles that had an area then and have none", &DeformationStep::lost_area);
+  column("largest_move", "m", "longest way of a vertex since then", &DeformationStep::largest_move);
 }
 
 /// The table of objects, in the order of the file.
 void write_objects(ResultWriter& writer, const std::vector<MeshNote>& meshes) {
-  const auto texts = [&](const char* name, const char* long_name, const auto& value) {
-    std::vector<std::string> values;
-    for (const MeshNote& mesh : meshes) values.emplace_back(value(mesh));
-    writer.write({std::string("/scene/objects/") + name, "1", long_name}, values);
+  const auto column = [&](const std::string& name, const std::string& long_name, const auto& value) {
+    write_column(writer, {"/scene/objects/" + name, "1", long_name}, meshes, value);
   };
-  texts("name", "of the object: its own, else its role", [](const MeshNote& mesh) { return mesh.object; });
-  texts("role", "the group of its mesh in /scene", [](const MeshNote& mesh) { return mesh.role; });
-  texts("mesh", "name or file of its mesh", [](const MeshNote& mesh) { return mesh.name; });
-  texts("motion", "held, stands, path or sways", [](const MeshNote& mesh) { return to_string(mesh.motion); });
-  std::vector<std::int64_t> first, count;
-  for (const MeshNote& mesh : meshes) {
-    first.push_back(mesh.motion == MotionKind::STANDS ? mesh.first_fixed_body : mesh.first_mover);
-    count.push_back(
-        std::max<std::int64_t>(1, mesh.movers + static_cast<std::int64_t>(mesh.instances.size())));
-  }
-  writer.write(
-      {"/scene/objects/first", "1", "number of its first instance, among what stands or among what moves"},
-      std::span<const std::int64_t>(first), {first.size()});
-  writer.write({"/scene/objects/instances", "1", "how many of it there are"},
-               std::span<const std::int64_t>(count), {count.size()});
+  column("name", "of the object: its own, else its role", [](const MeshNote& mesh) { return mesh.object; });
+  column("role", "the group of its mesh in /scene", [](const MeshNote& mesh) { return mesh.role; });
+  column("mesh", "name or file of its mesh", [](const MeshNote& mesh) { return mesh.name; });
+  column("motion", "held, stands, path or sways",
+         [](const MeshNote& mesh) { return std::string(to_string(mesh.motion)); });
+  column("first", "number of its first instance, among what stands or among what moves",
+         [](const MeshNote& mesh) {
+           return mesh.motion == MotionKind::STANDS ? mesh.first_fixed_body : mesh.first_mover;
+         });
+  column("instances", "how many of it there are", [](const MeshNote& mesh) {
+    return std::max<std::int64_t>(1, mesh.movers + static_cast<std::int64_t>(mesh.instances.size()));
+  });
 }
 
 }  // namespace

@@ -35,14 +35,6 @@ std::vector<double> from_nanoseconds(const Json& values) {
   return result;
 }
 
-template <typename Numbers, typename Infos>
-void collect(std::map<std::string, double>& into, const Numbers& numbers, const Infos& infos) {
-  for (const auto& info : infos) {
-    const double value = numbers.*info.value;
-    if (!std::isnan(value)) into[std::string(info.name)] = value;
-  }
-}
-
 }  // namespace
 
 const std::vector<PointNumber>& point_numbers() {
@@ -135,8 +127,8 @@ PointResult finish_point(PointErrors errors, const std::vector<PointRun>& runs, 
   result.numbers = errors.numbers;
   MethodSummary summary;
   summarise_times(summary, record, errors.counts);
-  collect(result.numbers, summary, summary_numbers());
-  collect(result.numbers, measure_times(record, errors.counts, frame_rate_hz), time_numbers());
+  add_known(result.numbers, summary, summary_numbers());
+  add_known(result.numbers, measure_times(record, errors.counts, frame_rate_hz), time_numbers());
   result.errors = std::move(errors);
   result.repetitions = std::move(record.repetitions);
   return result;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -20,6 +21,13 @@ struct PointNumber {
   std::string_view units;
   std::string_view long_name;
 };
+
+/// Adds the numbers of a table that are not NaN, by their names.
+template <typename Numbers, typename Infos>
+void add_known(std::map<std::string, double>& into, const Numbers& numbers, const Infos& infos) {
+  for (const auto& info : infos)
+    if (const double value = numbers.*info.value; !std::isnan(value)) into[std::string(info.name)] = value;
+}
 
 /// All of them: a run's summary, the steps, the times; in the order of reports.
 const std::vector<PointNumber>& point_numbers();

@@ -136,12 +136,8 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
                    count_events(static_cast<std::int64_t>(steps.true_jumps), known / frames.frame_rate_hz),
                    static_cast<std::int64_t>(known));
   PointErrors errors;
-  for (const SummaryNumber& number : summary_numbers())
-    if (const double value = summary.*number.value; !std::isnan(value))
-      errors.numbers[std::string(number.name)] = value;
-  for (const StepNumber& number : step_numbers())
-    if (const double value = steps.*number.value; !std::isnan(value))
-      errors.numbers[std::string(number.name)] = value;
+  add_known(errors.numbers, summary, summary_numbers());
+  add_known(errors.numbers, steps, step_numbers());
   errors.counters = summed_counters(record, method_description(choice.name));
   errors.counts = scene.in_contact();
   for (const FrameRecord& frame : record.frames) {
