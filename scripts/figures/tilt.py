@@ -10,9 +10,6 @@ from the corner over the edge to the middle of the face, and the torque with it 
 Exit codes: 0 done, 1 a tilt has more or less than one LMD, 4 no program."""
 
 import argparse
-import json
-import os
-import subprocess
 import sys
 import tempfile
 
@@ -21,8 +18,8 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from figure1 import write_off
-from lmdbench_results import EXIT_CHECK_FAILED, EXIT_ENVIRONMENT, run_script
+from figure1 import query
+from lmdbench_results import EXIT_CHECK_FAILED, run_script
 from program import PROGRAM
 
 import matplotlib.pyplot as plt
@@ -58,23 +55,14 @@ def sets_of(program, floats, folder):
     """The LMD sets over TILTS, in the world of the files, and the rotation in which those hold box and table."""
     turn_axis, turn_angle = np.array([0.6, -0.48, 0.64]), 0.7
     turn = rotation(turn_axis, turn_angle)
+    meshes = {}
     for name, low, high in (("box", (-0.5, -0.5, 0.0), (0.5, 0.5, 1.0)), ("table", (-2.0, -2.0, -0.5), (2.0, 2.0, 0.0))):
         vertices, triangles = box(low, high, turn)
-        write_off(os.path.join(folder, f"{name}.off"), vertices.astype(np.float32) if floats else vertices, triangles)
-    back = quaternion(turn_axis, -turn_angle)
-    with open(os.path.join(folder, "tilt.tum"), "w", encoding="ascii") as stream:
-        for i, tilt in enumerate(TILTS):
-            # In the table's frame: turn back, tilt, lift, turn again.
-            q = product(product(quaternion(turn_axis, turn_angle), quaternion(AXIS, tilt)), back)
-            t = turn @ np.array([0.0, 0.0, GAP])
-            stream.write(" ".join([str(i), *(repr(float(x)) for x in (*t, *q))]) + "\n")
-    done = subprocess.run([program, "query", "--moving", os.path.join(folder, "box.off"), "--fixed", os.path.join(folder, "table.off"),
-                           "--cutoff", str(CUTOFF), "--poses", os.path.join(folder, "tilt.tum"), "--json"],
-                          capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    if done.returncode != 0:
-        print(done.stderr, file=sys.stderr)
-        sys.exit(EXIT_ENVIRONMENT)
-    return [json.loads(line)["lmds"] for line in done.stdout.splitlines()], turn
+        meshes[name] = (vertices.astype(np.float32) if floats else vertices, triangles)
+    # In the table's frame: turn back, tilt, lift, turn again.
+    there, back = quaternion(turn_axis, turn_angle), quaternion(turn_axis, -turn_angle)
+    poses = [(i, *(turn @ np.array([0.0, 0.0, GAP])), *product(product(there, quaternion(AXIS, tilt)), back)) for i, tilt in enumerate(TILTS)]
+    return query(program, folder, meshes, CUTOFF, poses, "certified"), turn
 
 
 def main(argv):
@@ -82,10 +70,6 @@ def main(argv):
     parser.add_argument("--program", default=PROGRAM)
     parser.add_argument("--out", default="results/figures")
     arguments = parser.parse_args(argv)
-    if not os.access(arguments.program, os.X_OK):
-        print(f"{arguments.program}: no such program (remedy: cmake --preset release && cmake --build --preset release)",
-              file=sys.stderr)
-        return EXIT_ENVIRONMENT
     status = 0
     with plt.rc_context(style.STYLE), tempfile.TemporaryDirectory() as folder:
         figure, axes = plt.subplots(1, 3, figsize=(style.TWO_COLUMNS_IN, 2.1), layout="constrained")
