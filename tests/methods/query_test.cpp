@@ -39,21 +39,25 @@ TEST(Query, JsonHasTheContractsKeys) {
 }
 
 TEST(Query, CriticalPairsHaveAnIndexAndSayWhichAreMinima) {
-  const Scene scene = testing::make_scene(make_blob(0.5, 0.1, 3), make_torus(0.5, 0.2, 32, 16), 0.1);
-  std::mt19937_64 random(3);
-  const Pose pose = testing::grazing_pose(scene, 0.01, random);
+  const Scene scene = testing::make_scene(make_torus(0.5, 0.2, 32, 16), make_torus(0.5, 0.2, 32, 16), 0.5);
   const auto method = make_method("certified", scene);
-  const QueryAnswer answer = query_critical(*method, pose);
-  ASSERT_TRUE(answer.critical.has_value());
-  const auto json = nlohmann::json::parse(query_json(answer));
-  std::size_t minima = 0;
-  for (const auto& entry : json["lmds"]) {
-    ASSERT_TRUE(entry.contains("index"));
-    minima += entry["minimum"].get<bool>() ? 1 : 0;
+  std::mt19937_64 random(3);
+  std::size_t saddles = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Pose pose = testing::grazing_pose(scene, 0.01, random);
+    const QueryAnswer answer = query_critical(*method, pose);
+    const auto json = nlohmann::json::parse(query_json(answer));
+    std::size_t minima = 0;
+    for (const auto& entry : json["lmds"]) {
+      ASSERT_TRUE(entry.contains("index"));
+      minima += entry["minimum"].get<bool>() ? 1 : 0;
+    }
+    EXPECT_EQ(minima, query(*method, pose, scene.cutoff).lmds.size());
+    const bool has_saddle = json["lmds"].size() > minima;
+    EXPECT_EQ(query_text(answer).find("saddle") != std::string::npos, has_saddle);
+    saddles += has_saddle ? 1 : 0;
   }
-  EXPECT_EQ(minima, query(*method, pose, scene.cutoff).lmds.size());
-  EXPECT_GT(json["lmds"].size(), minima) << "a blob near a torus has saddles";
-  EXPECT_NE(query_text(answer).find("saddle"), std::string::npos);
+  EXPECT_GT(saddles, 0u);
 }
 
 TEST(Query, EmptySetHasNullDistance) {

@@ -64,7 +64,7 @@ class Clock(SharedScratch):
             self.assertEqual("search" in clock.roles(), tracks)
             self.assertEqual(bool(clock.read("servo/age").any()), tracks)
             for series in ("servo", "response", "floor"):
-                self.assertEqual(int(clock.read(f"lateness/{series}/histogram").sum()), clock.attribute("ticks", f"lateness/{series}"))
+                self.assertEqual(int(clock.read(f"lateness/{series}/histogram").sum()), clock.attribute("instants", f"lateness/{series}"))
 
     def test_the_summary_names_lateness_and_loads(self):
         for words in ("force over empty, p99", "% of a core", "servo", "empty"):

@@ -249,7 +249,7 @@ TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
 
 /// Two sharp ridges along y of a mesh, at x and -x, upwards or downwards.
 TriangleMesh ridges(double x, bool upwards) {
-  const TriangleMesh up = translated(make_wedge(0.01, 0.1, 0.03), Vec3(0.0, 0.0, -0.03));
+  const TriangleMesh up = translated(make_wedge(0.01, 0.1, 0.03), Vec3(0.0, 0.0, -0.015));
   TriangleMesh one = up;
   for (Vec3& vertex : one.vertices)
     if (!upwards) vertex = Vec3(-vertex.x(), vertex.y(), -vertex.z());

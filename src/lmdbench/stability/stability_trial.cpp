@@ -24,7 +24,8 @@ constexpr int CYCLES = SKIPPED_CYCLES + 2 * WINDOW_CYCLES;
 constexpr int REST_STEPS = 64;  ///< Steps over a cutoff to find the pose under the push.
 constexpr int REST_BITS = 30;   ///< Precision of that pose.
 
-constexpr double SLOPE_STEP = 1e-4;  ///< Half the base of a central difference, in cutoffs.
+constexpr double SLOPE_STEP = 1e-4;   ///< Half the base of a central difference, in cutoffs, ...
+constexpr double SLOPE_SHARE = 0.05;  ///< ... at most this share of the contact's range.
 
 /// Stands for a swing that died down or escaped: ten times the amplitude a window.
 constexpr double DECIDED_GROWTH = std::numbers::ln10;
@@ -143,9 +144,8 @@ FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& meth
 
 /// The force's slope along itself, by central difference; 0 without force.
 double slope_along(const Vec3& force_W, const Pose& X_WM, const std::function<FrameRecord(const Pose&)>& held,
-                   double cutoff) {
+                   double step) {
   const Vec3 along_W = force_W.normalized();
-  const double step = SLOPE_STEP * cutoff;
   const auto force_at = [&](double way) {
     Pose moved = X_WM;
     moved.translation += way * along_W;
@@ -255,8 +255,6 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
     held.poses.front() = *pose;
   }
   const FrameRecord at_rest = at(held.poses.front());
-  // K_eff holds the directions of contacts; between corners and edges they turn as the mesh moves.
-  trial.stiffness_n_per_m = slope_along(at_rest.force, held.poses.front(), at, method.profile.cutoff);
   trial.force_at_rest_W = at_rest.force;
   Rest rest;
   rest.pose = held.poses.front();
@@ -264,10 +262,15 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   rest.rendered = input.device.render({at_rest.force, at_rest.torque, 0.0});
   if (!loop.rotation) rest.rendered.torque.setZero();
   trial.clipped = at_rest.force_clipped || (loop.rotation && rest.rendered.torque_clipped);
-  rest.range_m = std::isnan(at_rest.effective_stiffness)
-                     ? at_rest.force.norm() / trial.stiffness_n_per_m
-                     : std::min(method.profile.cutoff - at_rest.minimum_distance,
-                                at_rest.minimum_distance - method.profile.saturation_distance);
+  rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
+                          at_rest.minimum_distance - method.profile.saturation_distance);
+  // K_eff holds the directions of contacts; between corners and edges they turn as the mesh moves.
+  const bool own_force = std::isnan(at_rest.effective_stiffness);
+  const double step = SLOPE_STEP * method.profile.cutoff;
+  trial.stiffness_n_per_m =
+      slope_along(at_rest.force, held.poses.front(), at,
+                  own_force || rest.range_m <= 0.0 ? step : std::min(step, SLOPE_SHARE * rest.range_m));
+  if (own_force) rest.range_m = at_rest.force.norm() / trial.stiffness_n_per_m;
   trial.in_contact = trial.stiffness_n_per_m > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;
   trial.saturated = !trial.in_contact && at_rest.minimum_distance <= method.profile.saturation_distance;
   trial.gives_way = !trial.in_contact && !trial.saturated && at_rest.force.norm() > 0.0;
