@@ -405,7 +405,8 @@ def main(argv):
     parser.add_argument("--most", type=int, default=-1, help="runs of this call; later calls go on; 0: tables of what is there")
     arguments = parser.parse_args(argv)
     study = Study(arguments.program, arguments.out, arguments.most, arguments.seconds)
-    lines = ["# On the clock", "", "Made by `scripts/figures/realtime.py`. Lateness is that of every instant of the grid, also of those skipped, which wait for the next tick. Intervals are 95 %, by blocks of 100 instants.", ""]
+    lines = ["# On the clock", "", "Made by `scripts/figures/realtime.py`. Lateness is that of every instant of the grid, also of those skipped, which wait for the next tick. "
+             "Intervals are 95 %, by blocks of 100 instants.", ""]
     makers = {"clock": clock_part, "free": free_part, "age": age_part, "overload": overload_part, "closed": closed_part}
     for part in arguments.parts:
         study.loads = []

@@ -26,9 +26,10 @@ struct LatenessExcess {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
-/// Lateness of one loop [s] by instant of its grid, with resamples of its quantiles (nearest rank). Where the machine is taken away for
-/// milliseconds, neighbouring samples depend on each other. So whole blocks of LATENESS_BLOCK
-/// samples are drawn (block bootstrap; Kunsch 1989), the same draws in every run.
+/// Lateness of one loop [s] by instant of its grid, with resamples of its quantiles (nearest rank).
+/// Where the machine is taken away for milliseconds, neighbouring samples depend on each other. So
+/// whole blocks of LATENESS_BLOCK samples are drawn (block bootstrap; Kunsch 1989), the same draws
+/// in every run.
 class Lateness {
  public:
   /// @param seconds  one an instant, in order
