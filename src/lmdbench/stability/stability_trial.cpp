@@ -26,6 +26,7 @@ constexpr int REST_BITS = 30;   ///< Precision of that pose.
 
 constexpr double SLOPE_STEP = 1e-4;   ///< Half the base of a central difference, in cutoffs, ...
 constexpr double SLOPE_SHARE = 0.05;  ///< ... at most this share of the contact's range.
+constexpr double SLOPE_CHANGE = 0.1;  ///< Of differences to both sides that are of one slope.
 
 /// Stands for a swing that died down or escaped: ten times the amplitude a window.
 constexpr double DECIDED_GROWTH = std::numbers::ln10;
@@ -142,16 +143,23 @@ FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& meth
   return run_lockstep({method}, held, driver, {}).front().frames.back();
 }
 
-/// The force's slope along itself, by central difference; 0 without force.
-double slope_along(const Vec3& force_W, const Pose& X_WM, const std::function<FrameRecord(const Pose&)>& held,
-                   double step) {
-  const Vec3 along_W = force_W.normalized();
+/// The force's slope along itself, by central difference. Where the method's set changes within the
+/// step, so that the differences to both sides are unlike, that of the set at rest: K_eff.
+double slope_along(const FrameRecord& at_rest, const Pose& X_WM,
+                   const std::function<FrameRecord(const Pose&)>& held, double step) {
+  const double force = at_rest.force.norm();
+  if (force == 0.0) return 0.0;
+  const Vec3 along_W = at_rest.force / force;
   const auto force_at = [&](double way) {
     Pose moved = X_WM;
     moved.translation += way * along_W;
     return held(moved).force.dot(along_W);
   };
-  return (force_at(-step) - force_at(step)) / (2.0 * step);
+  const double towards = (force_at(-step) - force) / step, away = (force - force_at(step)) / step;
+  const bool is_smooth =
+      std::abs(towards - away) <= SLOPE_CHANGE * std::max(std::abs(towards), std::abs(away));
+  return is_smooth || std::isnan(at_rest.effective_stiffness) ? 0.5 * (towards + away)
+                                                              : at_rest.effective_stiffness;
 }
 
 /// Moves the pose along the push until the contact carries it: whole steps, then TOMS 748.
@@ -268,7 +276,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   const bool own_force = std::isnan(at_rest.effective_stiffness);
   const double step = SLOPE_STEP * method.profile.cutoff;
   trial.stiffness_n_per_m =
-      slope_along(at_rest.force, held.poses.front(), at,
+      slope_along(at_rest, held.poses.front(), at,
                   own_force || rest.range_m <= 0.0 ? step : std::min(step, SLOPE_SHARE * rest.range_m));
   if (own_force) rest.range_m = at_rest.force.norm() / trial.stiffness_n_per_m;
   trial.in_contact = trial.stiffness_n_per_m > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;

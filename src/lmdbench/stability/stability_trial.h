@@ -18,8 +18,8 @@
 ///     down or left the contact's range, or after MOST_SWING_FRAMES.
 /// Method, force law, device clipping and search period are those of a run. The contact's stiffness
 /// is the force's slope along itself, by central difference: contacts that turn while the mesh
-/// moves are less stiff than K_eff, which holds their directions. Of a force of the method's own
-/// the range is force over stiffness.
+/// moves are less stiff than K_eff, which holds their directions. K_eff is taken where the method's
+/// set changes just there. Of a force of the method's own the range is force over stiffness.
 ///
 /// With Coulomb friction the loop is not linear, and a tap's result depends on its size: friction f
 /// takes 4 f a from a swing of amplitude a in each oscillation, while the sampled contact gives
