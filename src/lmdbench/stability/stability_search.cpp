@@ -71,15 +71,13 @@ class Search {
     if (loop.turn) loop.turn->lever_m = given.lever_m;
     row.exact_n_per_m = critical_stiffness(loop);
     row.bound_n_per_m = sufficient_stiffness(loop);
-    if (!given.carried && given.in_contact) {
-      row.clean_until = "never";
-    } else if (!given.in_contact) {
+    if (!given.in_contact) {
       row.clean_until = given.saturated ? "saturated" : given.gives_way ? "gives_way" : "no_contact";
     } else if (given.within_counts) {
       row.clean_until = "within_counts";
-    } else if (has_friction(experiment_.loop)) {
+    } else if (given.carried && has_friction(experiment_.loop)) {
       search_with_friction(scale, given, row);
-    } else if (row.exact_n_per_m == 0.0 && !counts()) {
+    } else if (!given.carried || (row.exact_n_per_m == 0.0 && !counts())) {
       // Nothing to search for: without damping, friction and counts every stiffness diverges.
       row.clean_until = "never";
     } else {
