@@ -109,6 +109,34 @@ class ContactScan {
   double excess_ = 0.0;        ///< ... its gap minus the cutoff [m].
 };
 
+/// Distances to one fixed mesh, pose after pose.
+class DistanceScan {
+ public:
+  DistanceScan(const Scene& scene, const Body& fixed, const MotionBound& motion)
+      : tracker_(scene.moving->surface(), scene.moving->prepared<Hierarchy>(), fixed.surface(),
+                 fixed.prepared<Hierarchy>()),
+        motion_(motion) {}
+
+  /// The exact distance, or infinity where a bound puts it above `limit`.
+  double unless_beyond(const Pose& X_WM, double limit) {
+    if (looked_at_) {
+      const double nearer = motion_.between(*looked_at_, X_WM) + motion_.slack(*looked_at_, X_WM);
+      if (distance_ * (1.0 - ROUNDING) - nearer > limit) return std::numeric_limits<double>::infinity();
+      if (tracker_.last_pair(X_WM).distance == 0.0) return 0.0;  // no other pair is nearer
+    }
+    looked_at_ = X_WM;
+    const NearestPair pair = tracker_.nearest(X_WM);
+    distance_ = pair.triangle_moving < 0 ? std::numeric_limits<double>::infinity() : pair.distance;
+    return distance_;
+  }
+
+ private:
+  NearestTracker tracker_;
+  const MotionBound& motion_;
+  std::optional<Pose> looked_at_;
+  double distance_ = 0.0;  ///< There [m].
+};
+
 }  // namespace
 
 NearestObjects::Nearest NearestObjects::at(const Pose& X_WM, double bound) {
@@ -192,12 +220,28 @@ std::vector<bool> frames_in_contact(const Scene& scene, const std::vector<Pose>&
 }
 
 Clearance clearance(const Scene& scene, std::span<const Pose> poses) {
+  if (scene.is_world()) {
+    const BroadPhase phase(scene);
+    Clearance result;
+    for (const Pose& X_WM : poses) {
+      const NearestInstance nearest = nearest_instance(scene, phase, X_WM, result.least_m);
+      result.least_m = std::min(result.least_m, nearest.distance);
+      if (nearest.distance == 0.0) ++result.touching;
+    }
+    return result;
+  }
+  const MotionBound motion(scene.moving->surface().mesh);
+  std::vector<DistanceScan> scans;
+  for (const auto& fixed : scene.fixed) scans.emplace_back(scene, *fixed, motion);
   Clearance result;
-  SceneDistance distance(scene, {});
   for (const Pose& X_WM : poses) {
-    const double here = distance.at(0, X_WM, result.least_m);
-    result.least_m = std::min(result.least_m, here);
-    if (here == 0.0) ++result.touching;
+    bool touching = false;
+    for (DistanceScan& scan : scans) {
+      const double distance = scan.unless_beyond(X_WM, result.least_m);
+      result.least_m = std::min(result.least_m, distance);
+      touching |= distance == 0.0;
+    }
+    if (touching) ++result.touching;
   }
   return result;
 }

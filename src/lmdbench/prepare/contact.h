@@ -135,7 +135,8 @@ struct Clearance {
   std::int64_t touching = 0;  ///< Poses at which they touch or intersect.
 };
 
-/// Of all poses, exactly. A pose is measured as far as the least so far.
+/// Of all poses, exactly. A pose is measured only if, by a bound on the motion since the last
+/// measured one, it could be below the least so far.
 Clearance clearance(const Scene& scene, std::span<const Pose> poses);
 
 }  // namespace lmdbench
