@@ -42,7 +42,7 @@ class Clock:
     def skipped_per_million(self, of):
         """(rate, low, high) of instants without a turn per million instants, of the servo loop or of the floor. They come in
         bursts, so that the interval is by blocks of instants."""
-        missed = np.concatenate([self.missed(name) for name in (("floor_before", "floor_after") if of == "floor" else (of,))])
+        missed = self.read("frame_source") == 1 if of == "servo" else np.concatenate([self.missed(name) for name in ("floor_before", "floor_after")])
         blocks = [(float(block.sum()), block.size) for block in np.array_split(missed, max(missed.size // BLOCK, 1))]
 
         def rate(drawn):
@@ -50,12 +50,12 @@ class Clock:
 
         return (rate(blocks), *bootstrap(blocks, rate))
 
-    def missed(self, of):
-        """Whether each instant of a loop's grid had no turn: those between the one that a turn was for and the next turn's."""
-        asked = self.read(f"{of}/asked")
-        missed = np.ones(asked.size + int(self.attribute("skipped", of)))
+    def missed(self, loop):
+        """Whether each instant of an empty loop's grid had no turn: a late turn is for the last instant that has come."""
+        asked = self.read(f"{loop}/asked")
+        missed = np.ones(asked.size + int(self.attribute("skipped", loop)), dtype=bool)
         instants = np.rint((asked - asked[:1]) / self.attribute("period_s")).astype(int)
-        missed[np.append(instants[1:], missed.size)[: asked.size] - 1] = 0.0  # a late turn is for the last instant that has come
+        missed[np.append(instants[1:], missed.size)[: asked.size] - 1] = False
         return missed
 
     def refused(self):

@@ -21,7 +21,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, micro, role_table
+from clock_results import Clock, age_table, clocks, draw_timing, excess_table, lateness_table, micro, role_table
 from lmdbench_results import Result, ResultError, run_script
 from program import PROGRAM, failure, printed, settings_words
 from tables import table, write_text
@@ -390,7 +390,7 @@ def closed_part(study):
             force = of.force_magnitude()
             apart = np.linalg.norm(of.read("loop/position") - lockstep.methods[label].read("loop/position"), axis=1)
             if driver == "clock":
-                apart = apart[result.h5[f"/realtime/{label}/frame_source"][()] == 0]  # else that of the tick before
+                apart = apart[Clock(result, label).read("frame_source") == 0]  # else that of the tick before
             lines.append(f"| {driver} | {label} | {np.sqrt(np.mean(force**2)):.3g} | {of.number('force_above_30_hz_n'):.3g} | {1e3 * of.number('energy_created_j'):.3g} | "
                          f"{1e3 * np.sqrt(np.mean(apart**2)):.3g} |")
     return [*lines, ""]

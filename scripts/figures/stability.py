@@ -199,11 +199,13 @@ device rests in contact and is tapped (`src/lmdbench/stability/stability_trial.h
 ## Contacts with a hand
 
 A device of 0.075 kg and 0.005 N s/m in the hand `postural-arm` (0.554 kg, 6.45 N s/m, 135 N/m). The hard profile is the experiment's; the soft one
-has a cutoff five times as far and no saturation. Stiffness is the slope of the summed force along itself. The paper's methods track in every
-frame, so at rest their sets do not age: the delay is the force's. Where contacts of several directions act the loop is not one-dimensional and may
-end before the exact boundary of one contact.
+has a cutoff five times as far and no saturation. Stiffness is the slope of the summed force along itself (K_eff where a method's set changes just at
+rest). The paper's methods track in every frame, so at rest their sets do not age: the delay is the force's. Where contacts of several directions act
+the loop is not one-dimensional and may end before the exact boundary of one contact.
 
 {scenes}
+
+*Undecided*: the time of the search was spent; the largest clean stiffness up to then, which depends on the machine's speed.
 
 ## Walls
 

@@ -66,6 +66,11 @@ class Clock(SharedScratch):
             for series in ("servo", "response", "floor"):
                 self.assertEqual(int(clock.read(f"lateness/{series}/histogram").sum()), clock.attribute("instants", f"lateness/{series}"))
 
+            self.assertAlmostEqual(clock.skipped_per_million("servo")[0], 1e6 * skipped / frames)
+            idle = sum(clock.attribute("skipped", loop) for loop in ("floor_before", "floor_after"))
+            turns = sum(clock.read(f"{loop}/asked").size for loop in ("floor_before", "floor_after"))
+            self.assertAlmostEqual(clock.skipped_per_million("floor")[0], 1e6 * idle / (idle + turns))
+
     def test_the_summary_names_lateness_and_loads(self):
         for words in ("force over empty, p99", "% of a core", "servo", "empty"):
             self.assertIn(words, self.done.stdout)

@@ -9,23 +9,7 @@
 
 namespace lmdbench::testing {
 
-/// Message of the error that `action` throws; a test failure and an empty text when
-/// it throws none of that type.
-template <typename ErrorType, typename Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const ErrorType& error) {
-    return error.what();
-  } catch (const std::exception& error) {
-    ADD_FAILURE() << "another error: " << error.what();
-    return {};
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
-
-/// The same, but nothing has to be thrown: then the text is empty.
+/// Message of the error that `action` throws; an empty text when it throws nothing.
 template <typename ErrorType, typename Action>
 std::string complaint_of(const Action& action) {
   try {
@@ -34,6 +18,19 @@ std::string complaint_of(const Action& action) {
     return error.what();
   }
   return {};
+}
+
+/// The same; a test failure and an empty text when it throws none of that type.
+template <typename ErrorType, typename Action>
+std::string message_of(const Action& action) {
+  try {
+    const std::string message = complaint_of<ErrorType>(action);
+    EXPECT_NE(message, "") << "no error";
+    return message;
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << "another error: " << error.what();
+    return {};
+  }
 }
 
 }  // namespace lmdbench::testing

@@ -149,8 +149,7 @@ void summarise_rendering(MethodSummary& summary, const MethodRecord& record, con
     summary.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(all.size()));
   }
   if (!record.loop.empty()) {
-    if (const std::vector<double> work = contact_work(record, frames.ports); !work.empty())
-      summary.energy_created_j = maximum(work);
+    summary.energy_created_j = maximum(contact_work(record, frames.ports));
     summary.energy_balance_error = record.loop.back().energy.balance_error();
   }
   if (force.empty()) return;

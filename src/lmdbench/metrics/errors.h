@@ -43,7 +43,7 @@ struct RunFrames {
   std::vector<bool> in_contact;  ///< One a frame (contact.h).
   double frame_rate_hz = 0.0;
   double maximum_force = 0.0;  ///< F_max of one LMD [N].
-  ContactPorts ports = {};
+  ContactPorts ports = {};     ///< For the energies of a closed loop.
 };
 
 /// Numbers of LMDs over the frames in contact (the largest: over all), of candidates over the
