@@ -205,6 +205,7 @@ void compare_times(const Files& base, const Files& candidate, const CompareOptio
     Timing timing = judge_timing(sample.base, sample.candidate, least_effect, error);
     timing.method = sample.method;
     timing.stage = sample.stage;
+    if (!absolute && timing.verdict != Verdict::SAME) timing.verdict = Verdict::UNSURE;
     if (absolute && (timing.verdict == Verdict::SLOWER || timing.verdict == Verdict::FASTER))
       timing.work = work_of_stage(base.front(), candidate.front(), sample.method, sample.stage);
     comparison.timings.push_back(std::move(timing));
@@ -215,7 +216,9 @@ void note_limits(Comparison& comparison) {
   if (!comparison.machine.comparable)
     comparison.notes.push_back(fmt::format(
         "absolute times are not compared, the machines differ; methods are compared with each other within "
-        "each file, changes under {:.0f} % are taken for the machine's",
+        "each file, changes under {:.0f} % are taken for the machine's, and of larger ones only one machine "
+        "can "
+        "tell which of the two is slower",
         100.0 * CROSS_MACHINE_EFFECT));
   if (comparison.timings.empty()) {
     comparison.notes.emplace_back("no time was compared: on two machines that takes two methods");

@@ -44,7 +44,8 @@ struct Comparison {
 
 /// Compares results; several files a side are replicates by process. Times are compared by stage
 /// and method if the machines are alike; else the times of methods relative to each other within
-/// every file, with a least effect of at least CROSS_MACHINE_EFFECT. Experiments with the same
+/// every file, with a least effect of at least CROSS_MACHINE_EFFECT: same, or unsure, since a ratio
+/// that moved does not say which of the two did. Experiments with the same
 /// frames but other settings (force, methods, searches) are `changed`, settings first. Where one
 /// experiment made different scenes, that is `changed`, and no times are compared.
 /// @throws InputError  when a file is no result, or replicates of one side have different results
