@@ -67,6 +67,37 @@ TEST_F(InitTest, OneUnitIsChosenForBoth) {
   EXPECT_EQ(metres["fixed"][0]["scale"], 0.01);
 }
 
+TEST_F(InitTest, AGuessOfMillimetresThatLeavesMetresIsTold) {
+  const std::string wide = write("wide.off", make_box({12000, 12000, 12000})),
+                    cube = write("cube.off", make_box({9000, 9000, 9000}));
+  EXPECT_THAT(make(wide, cube).warnings, Contains(HasSubstr("20.78 m large")));
+  EXPECT_THAT(make(wide, cube, {.unit = "um"}).warnings, ::testing::Not(Contains(HasSubstr("m large"))));
+}
+
+TEST_F(InitTest, BuiltMeshesOfTheManifestHaveTheUnitOfTheirFile) {
+  const Json manifest = {
+      {"format", "lmdbench-mesh-manifest"},
+      {"format_version", 1},
+      {"sources",
+       {{"s",
+         {{"package", "some-package"},
+          {"path", "p.off"},
+          {"sha256", std::string(64, '0')},
+          {"licence", "none"},
+          {"credit", "nobody"}}}}},
+      {"meshes",
+       {{"wide",
+         {{"description", "d"}, {"source", "s"}, {"triangles", 12}, {"sha256", std::string(64, '0')}}}}}};
+  scratch_.write("m/manifest.json", manifest.dump());
+  write("m/wide.off", make_box({120, 120, 120}));
+  const NewExperiment twice = new_experiment("wide", "wide", scratch_ / "new", scratch_ / "m", {}, {});
+  EXPECT_EQ(Json::parse(twice.experiment_text)["moving"]["scale"], 0.001);
+  const PreparedRun prepared = prepare(parse_experiment(
+      R"({"mesh_folder": "m", "moving": {"mesh": "wide"}, "fixed": [{"mesh": "wide", "pose": {"translation_m": [200, 0, 0]}}]})",
+      scratch_ / "two.json"));
+  EXPECT_THAT(prepared.warnings, Contains(HasSubstr("its file is not the manifest's")));
+}
+
 TEST_F(InitTest, UnlikeSizesAreRefusedUnlessSomebodySaysTheirUnits) {
   const std::string pin = write("pin.off", make_box({20, 20, 50}));
   const std::string plate = write("plate.off", make_box({0.1, 0.1, 0.02}));

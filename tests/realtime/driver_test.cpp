@@ -213,12 +213,13 @@ TEST(RealtimeDriver, RefusalsAreRecordedAndEndARunThatRequires) {
 TEST(Lengthen, GoesThereAndBackUntilTheTimeIsOver) {
   std::vector<Pose> poses(3);
   for (int i = 0; i < 3; ++i) poses[static_cast<std::size_t>(i)].translation.x() = i;
-  std::vector<double> times(3);
+  std::vector<double> times{5.0, 5.001, 5.002};
   lengthen(poses, times, 1000.0, 0.007, "e.json");
   std::vector<double> x;
   for (const Pose& pose : poses) x.push_back(pose.translation.x());
   EXPECT_THAT(x, ::testing::ElementsAre(0, 1, 2, 1, 0, 1, 2, 1));
-  EXPECT_DOUBLE_EQ(times.back(), 0.007);
+  EXPECT_DOUBLE_EQ(times.front(), 5.0) << "as the path counts";
+  EXPECT_DOUBLE_EQ(times.back(), 5.007);
   lengthen(poses, times, 1000.0, 0.002, "e.json");
   EXPECT_THROW(lengthen(poses, times, 1000.0, 1e9, "e.json"), UsageError) << "the limit of frames";
   EXPECT_EQ(poses.size(), 3u) << "a run may be shorter than its path";

@@ -80,6 +80,25 @@ TEST(Instances, ARunAmongThemFindsWhatTheSceneWithoutThemHas) {
   EXPECT_EQ(run.plan.scene->meshes.at(1).instances, 4);
 }
 
+TEST(Instances, TheirListIsAnInputOfTheRun) {
+  const ScratchDirectory scratch;
+  const Experiment world = shapes_with(list_of_four(scratch), {"/frames=40"});
+  run_experiment_to_file(world, scratch / "whole.h5", {"lmdbench", "run"});
+  EXPECT_THAT(OpenResult(scratch / "whole.h5").strings("/provenance/inputs/role"),
+              ::testing::Contains("instances:fixed_0"));
+  EXPECT_THROW(
+      run_experiment_to_file(world, scratch / "r.h5", {},
+                             [](const std::string&, std::int64_t done, std::int64_t) { return done < 60; }),
+      Interrupted);
+  scratch.write("list.txt", "0 0 0 0 0 0 1\n");
+  EXPECT_THAT(message_of<InputError>([&] {
+                run_experiment_to_file(world, scratch / "r.h5", {"lmdbench", "run"}, {}, Leftover::RESUME);
+              }),
+              HasSubstr("is of another run"));
+  EXPECT_THAT(message_of<InputError>([&] { scene_of_result(ResultReader(scratch / "whole.h5")); }),
+              HasSubstr("list.txt: the list of poses has changed"));
+}
+
 /// Three entries of one mesh: the plain torus, one far away, one turned beside it.
 Experiment three_entries(std::vector<Override> overrides = {}) {
   overrides.insert(overrides.begin(), {"/frames=320", "/driver/repetitions=1", "/record/lmds=true",

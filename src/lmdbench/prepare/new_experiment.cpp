@@ -70,13 +70,14 @@ GivenMesh part_of(const std::string& name, const std::string& place,
 }
 
 /// One decision for both: parts that meet come from one drawing far more often than from two.
-void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::string>& unit) {
+void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::string>& unit,
+                  std::vector<std::string>& warnings) {
   if (unit) {
     std::tie(moving.metres, fixed.metres) = metres_of_units(*unit, "--unit");
     moving.why = fixed.why = "--unit " + *unit;
   } else {
     const auto known = [](const GivenMesh& part) {
-      return is_mesh_name(part.name) ? std::optional(1.0) : metres_of_format(part.name);
+      return part.mesh.file ? metres_of_format(part.name) : std::optional(1.0);
     };
     double longest = 0.0;  // of coordinates without a known unit
     for (const GivenMesh* part : {&moving, &fixed})
@@ -84,13 +85,18 @@ void choose_units(GivenMesh& moving, GivenMesh& fixed, const std::optional<std::
     const bool millimetres = longest > LARGEST_PLAUSIBLE_DIAGONAL;
     for (GivenMesh* part : {&moving, &fixed}) {
       part->metres = known(*part).value_or(millimetres ? 0.001 : 1.0);
-      part->why = is_mesh_name(part->name) ? "the manifest's meshes are in metres"
-                  : known(*part)           ? "glTF is in metres"
+      part->why = !part->mesh.file ? "the manifest's shapes are in metres"
+                  : known(*part)   ? "glTF is in metres"
                   : millimetres
                       ? fmt::format("a file's coordinates span {:.4g}: {} for millimetres", longest,
                                     known(moving) || known(fixed) ? "they are taken" : "both are taken")
                       : "no file's coordinates span more than a few metres";
     }
+    if (millimetres && 0.001 * longest > UNLIKELY_SIZE)
+      warnings.push_back(
+          fmt::format("in millimetres a part is {:.4g} m large (remedy: say another unit, such as --unit um, "
+                      "or --unit mm)",
+                      0.001 * longest));
   }
   const double a = moving.metres * moving.diagonal;
   const double b = fixed.metres * fixed.diagonal;
@@ -241,7 +247,7 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
     json["mesh_folder"] = path_from(folder, mesh_folder);
   GivenMesh moving_part = part_of(moving, "/moving", mesh_folder);
   GivenMesh fixed_part = part_of(fixed, "/fixed/0", mesh_folder);
-  choose_units(moving_part, fixed_part, chosen.unit);
+  choose_units(moving_part, fixed_part, chosen.unit, result.warnings);
   const bool keep_place = choose_places(moving_part, fixed_part, chosen, result.choices);
   json["moving"] = mesh_entry(moving_part, keep_place, chosen, folder, result.choices);
   json["fixed"] = OrderedJson::array({mesh_entry(fixed_part, keep_place, chosen, folder, result.choices)});

@@ -85,6 +85,10 @@ std::set<std::filesystem::path> plugin_files(const Experiment& experiment) {
   return files;
 }
 
+InputFile input_file(const std::string& role, const std::filesystem::path& file) {
+  return {role, file, sha256_of_file(file), static_cast<std::int64_t>(std::filesystem::file_size(file))};
+}
+
 /// For the provenance: one entry a file.
 std::vector<InputFile> mesh_files(const std::vector<MeshNote>& notes) {
   std::vector<InputFile> files;
@@ -117,8 +121,7 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
   if (!experiment.held().motion.path_file.empty()) path = read_held_path(experiment);
   std::vector<InputFile> plugins;
   for (const std::filesystem::path& plugin : plugin_files(experiment))
-    plugins.push_back({"plugin:" + plugin.filename().string(), plugin, sha256_of_file(plugin),
-                       static_cast<std::int64_t>(std::filesystem::file_size(plugin))});
+    plugins.push_back(input_file("plugin:" + plugin.filename().string(), plugin));
   LoadedScene loaded = load_scene(experiment);
   Profiles profiles = profiles_of(experiment, loaded);
 
@@ -161,6 +164,9 @@ PreparedRun prepare(const Experiment& experiment, const Progress& progress, Defo
   input.reference_M = bounding_box_centre(prepared.scene().moving->surface().mesh);
   prepared.meshes = std::move(loaded.notes);
   append(prepared.files, mesh_files(prepared.meshes));
+  for (std::size_t i = 0; i < experiment.objects.size(); ++i)
+    if (const auto& instances = experiment.objects[i].instances; instances && !instances->file.empty())
+      prepared.files.push_back(input_file("instances:" + prepared.meshes[i].role, instances->file));
   append(prepared.warnings, deformation_warnings(prepared.meshes, input.motion.deformation.get(),
                                                  prepared.made_path.has_value()));
   append(prepared.warnings, mesh_warnings(experiment, prepared.meshes));

@@ -36,7 +36,7 @@ enum class Deforming : std::uint8_t {
 struct PreparedRun {
   std::vector<PreparedProfile> profiles;  ///< The experiment's, at least one.
   DriverInput input;
-  std::vector<double> times = {};     ///< Of the frames, from the start of the path [s].
+  std::vector<double> times = {};     ///< Of the frames, as the path counts them [s].
   std::vector<MeshNote> meshes = {};  ///< One an object.
   std::vector<InputFile> files = {};  ///< For the provenance.
   bool starts_touching = false;       ///< Triangles touch in the first frame.

@@ -157,8 +157,9 @@ void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame
                      "ask for less time, or " + raise_remedy(Limit::FRAMES));
   const auto wanted = static_cast<std::size_t>(std::llround(frames)) + 1;
   there_and_back(poses, wanted);
+  const double start = times.front();
   times.resize(poses.size());
-  for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) / frame_rate_hz;
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = start + static_cast<double>(i) / frame_rate_hz;
 }
 
 MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& movers,

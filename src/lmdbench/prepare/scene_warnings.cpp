@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/aggregation.h>
 #include <lmdbench/mesh/flat_triangles.h>
@@ -11,6 +12,17 @@
 #include <cstdint>
 
 namespace lmdbench {
+namespace {
+
+/// A mesh of the manifest that other tools built, or that somebody changed.
+bool differs_from_manifest(const MeshNote& note, const std::filesystem::path& mesh_folder) {
+  if (!note.file || !is_mesh_name(note.name)) return false;
+  const Manifest manifest = load_manifest(mesh_folder / "manifest.json");
+  const ManifestEntry* const entry = manifest.find(note.name);
+  return entry != nullptr && !entry->sha256.empty() && entry->sha256 != note.sha256;
+}
+
+}  // namespace
 
 std::vector<std::string> deformation_warnings(const std::vector<MeshNote>& notes,
                                               const SceneDeformation* deformation, bool path_is_made) {
@@ -57,6 +69,8 @@ std::vector<std::string> mesh_warnings(const Experiment& experiment, const std::
                       coincident, note.instances.size()));
     // A mesh used twice gets its warnings once.
     if (earlier_body(experiment, i)) continue;
+    if (differs_from_manifest(note, experiment.mesh_folder))
+      warn("its file is not the manifest's: results on it do not compare frame by frame with others'");
     if (note.flattening.flipped_triangles > 0) warn(flipped_text(note.flattening.flipped_triangles));
     if (note.flattening.moved_vertices > 0) warn(to_text(note.flattening));
     if (note.orientation.choice == OrientationChoice::OUTWARD) warn(to_text(note.orientation));

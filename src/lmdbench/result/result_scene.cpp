@@ -134,18 +134,26 @@ Experiment experiment_of_result(const ResultReader& result, const fs::path& base
                           base / result.text_attribute("/provenance", "experiment_file").value_or(""));
 }
 
-/// Vertex files must be those of the run.
-void check_vertex_files(const std::vector<MeshNote>& notes, const ResultReader& result) {
+/// Vertex files and lists of poses must be those of the run.
+void check_files(const Experiment& experiment, const std::vector<MeshNote>& notes,
+                 const ResultReader& result) {
   const std::vector<std::string> roles = result.texts("/provenance/inputs/role");
   const std::vector<std::string> hashes = texts_of_size(result, "/provenance/inputs/sha256", roles.size());
-  for (const MeshNote& note : notes) {
-    if (!note.vertices || note.vertices->sha256().empty()) continue;
-    const auto found = std::ranges::find(roles, "vertices:" + note.role);
-    if (found == roles.end() ||
-        hashes[static_cast<std::size_t>(found - roles.begin())] != note.vertices->sha256())
-      throw InputError(vertex_files(note.vertices->deformation()).front().string(), "",
-                       "this or another vertex file has changed since the run",
-                       "give them back their content, or run the experiment again");
+  const auto check = [&](const std::string& role, const std::string& hash, const fs::path& file,
+                         const std::string& changed) {
+    const auto found = std::ranges::find(roles, role);
+    if (found != roles.end() && hashes[static_cast<std::size_t>(found - roles.begin())] != hash)
+      throw InputError(file.string(), "", changed + " since the run",
+                       "give back the old content, or run the experiment again");
+  };
+  for (std::size_t i = 0; i < notes.size(); ++i) {
+    const MeshNote& note = notes[i];
+    if (note.vertices && !note.vertices->sha256().empty())
+      check("vertices:" + note.role, note.vertices->sha256(),
+            vertex_files(note.vertices->deformation()).front(), "this or another vertex file has changed");
+    if (const auto& instances = experiment.objects[i].instances; instances && !instances->file.empty())
+      check("instances:" + note.role, sha256_of_file(instances->file), instances->file,
+            "the list of poses has changed");
   }
 }
 
@@ -165,7 +173,7 @@ ResultScene scene_of_experiment(const Experiment& experiment, const ResultReader
                                 std::size_t frames) {
   const LoadedScene loaded = load_scene(experiment);
   Scene scene = loaded.scene;
-  check_vertex_files(loaded.notes, result);
+  check_files(experiment, loaded.notes, result);
   scene.cutoff = result.real_attribute("/scene", "cutoff_m").value_or(scene.cutoff);
   for (const std::string& label : result.groups("/methods"))
     scene.cutoff =
