@@ -186,6 +186,14 @@ TEST(ImportTest, CutsPolygonsInPlaceAndSkipsLines) {
   EXPECT_EQ(mesh.vertices.size(), 4u) << "the line's end is not on the surface";
 }
 
+TEST(ImportTest, AFourthNumberOfAnObjIsAWeightAndSixHaveAColour) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh =
+      import_mesh(folder.write("w.obj", "v 2 0 0 2\nv 0 4 0 4\nv 0 0 1 0.5 0.25 0.125\nf 1 2 3\n"));
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.triangle(0), (std::array<Vec3, 3>{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}));
+}
+
 TEST(ImportTest, CommentsOfAnObjMayStandBehindData) {
   const ScratchDirectory folder;
   const TriangleMesh mesh = import_mesh(

@@ -135,6 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenOff{"cut_in_vertices", "OFF\n5 1 0\n0 0 0\n1 0 0\n", "line 4", "after 2 of 5 vertices"},
         BrokenOff{"cut_in_faces", "OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "line 6",
                   "after 1 of 4 faces"},
+        BrokenOff{"more_faces", THREE + "3 0 1 2\n3 0 2 1\n", "line 7",
+                  "goes on behind what its header announces"},
         BrokenOff{"cut_in_header", "OFF\n", "line 1", "ends after its keyword"},
         BrokenOff{"negative_count", "OFF\n-3 1 0\n", "line 2", "negative"},
         BrokenOff{"huge_count", "OFF\n4000000000 1 0\n", "line 2", "too large"}),

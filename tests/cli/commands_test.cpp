@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/catalogue/off_file.h>
+#include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/cli/examples.h>
 
 #include "program.h"
@@ -89,6 +91,16 @@ TEST(Program, QuietTellsErrorsAlone) {
       lmdbench("-q run " + SHORT_RUN + "--out r.h5 --set /limits/recall=1.5", scratch.path());
   EXPECT_EQ(broken.code, USAGE);
   EXPECT_THAT(broken.err, HasSubstr("/limits/recall"));
+}
+
+TEST(PathCommand, RepeatsThePathThatInitMakesFarFromTheOrigin) {
+  const ScratchDirectory scratch;
+  TriangleMesh box = make_box({0.02, 0.02, 0.02});
+  for (Vec3& vertex : box.vertices) vertex += Vec3(131072.0, 0.0, 0.0);
+  for (const char* name : {"a.off", "b.off"}) scratch.write(name, to_off_text(box));
+  EXPECT_EQ(lmdbench("init a.off b.off --out new", scratch.path()).code, 0);
+  const Outcome outcome = lmdbench("path generate new/a-b.path.json --out p.tum", scratch.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
 class StopSignals : public ::testing::TestWithParam<std::pair<const char*, int>> {};

@@ -21,6 +21,10 @@ Vec3 read_position(LineReader& lines) {
   Vec3 position;
   for (int axis = 0; axis < 3; ++axis)
     position[axis] = static_cast<double>(static_cast<float>(lines.number<double>("a coordinate")));
+  if (!lines.at_line_end()) {
+    const double weight = lines.number<double>("a weight or colour");
+    if (lines.at_line_end()) position /= weight;  // else it is the first part of a colour
+  }
   if (!position.allFinite()) lines.fail("a coordinate is not finite", "correct or remove it");
   return position;
 }

@@ -78,6 +78,8 @@ TriangleMesh parse_off(std::string_view text, const std::string& file) {
   TriangleMesh mesh;
   read_vertices(lines, vertex_count, mesh);
   read_faces(lines, face_count, mesh);
+  if (lines.next_line())
+    lines.fail("the file goes on behind what its header announces", "correct the header's counts");
   return mesh;
 }
 

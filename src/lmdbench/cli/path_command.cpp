@@ -21,6 +21,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -32,9 +33,13 @@
 namespace lmdbench {
 namespace {
 
-/// Decimals of a generated path: nanometres and nanoradians keep the file small. The rounded path
-/// is the one checked.
-constexpr int STORED_DECIMALS = 9;
+/// Decimals of a generated path: nanometres and nanoradians keep the file small, unless they move
+/// the mesh (tiny, or far from its origin) by 1e-5 of its size. The rounded path is checked.
+std::optional<int> stored_decimals(const PathScene& scene) {
+  const double reach = std::max(1.0, scene.moving_centre_M.norm() + scene.moving_radius);
+  if (1e-9 * reach > 1e-5 * scene.diagonal) return std::nullopt;
+  return 9;
+}
 
 constexpr double DEGREES = 180.0 / std::numbers::pi;
 
@@ -183,7 +188,7 @@ void generate(const PathArguments& arguments) {
   const std::string comment =
       fmt::format("{} past {}, {} {}'", name_of(spec.moving), name_of(spec.fixed), GENERATED_PATH_MARK,
                   std::filesystem::path(arguments.spec).filename().string());
-  const std::string text = tum_text(path, comment, STORED_DECIMALS);
+  const std::string text = tum_text(path, comment, stored_decimals(scene));
   // Readers will have the rounded poses, interpolated.
   std::istringstream stream(text);
   const PathInterpolator interpolator(read_tum(stream, arguments.path));

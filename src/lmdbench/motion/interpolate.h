@@ -42,8 +42,9 @@ struct RecordingGap {
 /// b_1(u)) exp(w_2 b_2(u)) exp(w_3 b_3(u)) (Kim, Kim and Shin, SIGGRAPH 1995). Its angular
 /// velocities at the poses come from the same rule, with rotation vectors for differences.
 ///
-/// Neither overshoots by more than a fraction of a step, but where a path *jumps* the neighbouring
-/// intervals swing: use LINEAR for paths that are meant to jump.
+/// At even times neither overshoots by more than a fraction of a step, but where a path *jumps* the
+/// neighbouring intervals swing, and so do long intervals beside much shorter ones (a tracker that
+/// delivers in pairs): use LINEAR for such paths.
 ///
 /// Translation is interpolated at the mesh frame's origin: a mesh whose origin is far from its
 /// centre swings when it turns. Meshes are centred for that (`scaled_to_diagonal`).

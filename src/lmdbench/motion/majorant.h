@@ -28,7 +28,6 @@ struct MotionLimits {
 /// three passes share the limits, each working on what the sum of the earlier passes lacks. This
 /// remainder hardly moves where samples are smooth, and there the excess all but vanishes.
 ///
-/// Time: quadratic in the number of samples at worst.
 /// @param samples values at equal time steps
 /// @param time_step seconds
 std::vector<double> bounded_majorant(const std::vector<double>& samples, double time_step,

@@ -39,7 +39,6 @@ struct VtuGrid {
   void add(const std::vector<Vec3>& cell_points);
 };
 
-/// Corners of triangles are written in single precision.
 /// @throws std::logic_error for arrays of another length and for values that are not finite
 std::string vtu_text(const VtuGrid& grid);
 
