@@ -127,7 +127,7 @@ part() {
     rivals) # needs scripts/packages_rivals.txt
       cmake -S experiments/rivals -B build/rivals >&2
       cmake --build build/rivals >&2
-      figure rivals --program "$BUILD/lmdbench" --out "$OUT"
+      figure rivals --program "$BUILD/lmdbench" --poses 30 --stretch 1 --stability-seconds 40 --out "$OUT"
       ;;
     scaling)
       "$BUILD/lmdbench" mesh build dragon-11k dragon-47k dragon-202k dragon-871k >&2
@@ -177,6 +177,7 @@ if [[ ${1:-} == --one ]]; then # a process of its own, so that a command that fa
 fi
 commit="$(git rev-parse --short HEAD)"
 git diff --quiet HEAD -- . ':!results/release' || die 2 "the checkout has changes that no commit names (remedy: commit or stash them)"
+build_preset release # a table is filed under the commit of its program
 OUT="results/reference-runs/$commit"
 mkdir -p "$OUT"
 (($#)) || set -- "${PARTS[@]}"

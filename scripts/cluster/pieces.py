@@ -75,6 +75,8 @@ def pieces_of_study(program, arguments, out):
         reports.append(report)
         if not os.path.exists(report):
             pieces.append(Piece(name, shlex.join(call), [program, "--name-node", *call, "--json", report]))
+    if len(pieces) == len(reports):
+        Path(out + ".points", "findings.log").unlink(missing_ok=True)  # of another build
     merge = os.path.join(os.path.dirname(os.path.abspath(__file__)), "merge_reports.py")
     return pieces, ["/usr/bin/env", "python3", merge, "--out", out, *reports]
 

@@ -86,6 +86,9 @@ def use(root, checks, when):
     # A chroot lacks that device; an empty standard input is enough.
     code, said = root("sh", "-c", "cd /root && lmdbench run /usr/share/lmdbench/experiments/shapes.json --out shapes.h5 --set /frames=200")
     checks.that(code == 0 and os.path.getsize(root.folder + "/root/shapes.h5") > 10_000, f"{when}: runs shapes.json{said if code else ''}")
+    code, said = root("sh", "-c", "for file in /usr/share/lmdbench/experiments/*.json /usr/share/lmdbench/experiments/extreme/*.json; do "
+                      "lmdbench plan $file 2>&1 >/dev/null | grep error: | grep -v 'is not built yet'; done")
+    checks.that(not said, f"{when}: the experiments have their files {said}")
     code, said = root("python3", "-c", USE_MODULE)
     checks.that(code == 0, f"{when}: the module answers {said}")
 

@@ -4,9 +4,11 @@
 # own arrangement, since experiments name meshes and paths by relative names.
 include(GNUInstallDirs)
 set(data "${CMAKE_INSTALL_DATADIR}/lmdbench")
-install(DIRECTORY experiments meshes paths DESTINATION "${data}" COMPONENT Runtime
-        FILES_MATCHING PATTERN "*.json" PATTERN "*.tum" PATTERN "experiments/*.off" PATTERN "press-fit/*.off" PATTERN "press-fit/*.xyz" PATTERN "README.md"
-        PATTERN benchmarks EXCLUDE PATTERN judge EXCLUDE PATTERN study EXCLUDE PATTERN support EXCLUDE PATTERN sources EXCLUDE)
+install(DIRECTORY experiments DESTINATION "${data}" COMPONENT Runtime
+        FILES_MATCHING PATTERN "*.json" PATTERN "*.tum" PATTERN "*.off" PATTERN "*.xyz" PATTERN "README.md"
+        PATTERN benchmarks EXCLUDE PATTERN judge EXCLUDE PATTERN study EXCLUDE PATTERN support EXCLUDE)
+install(DIRECTORY meshes paths DESTINATION "${data}" COMPONENT Runtime # without meshes that are built
+        FILES_MATCHING PATTERN "*.json" PATTERN "*.tum" PATTERN "README.md" PATTERN sources EXCLUDE)
 install(DIRECTORY scripts/figures scripts/report DESTINATION "${data}/scripts" COMPONENT Runtime
         PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)
 install(FILES results/README.md RENAME result-format.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)

@@ -83,7 +83,7 @@ fs::path write_report(const ReportRequest& request, const Tell& progress, const 
   const fs::path script = report_script();
   const std::string python = find_python();
   const TemporaryFolder scenes(fs::temp_directory_path(), "lmdbench-report-");
-  std::vector<std::string> argv{python, script.string()};
+  std::vector<std::string> argv{python, "-B", script.string()};  // writes nothing beside the script
   for (std::size_t i = 0; i < request.results.size(); ++i) {
     progress(fmt::format("reading {}", request.results[i].string()));
     const ResultReader result(request.results[i]);
