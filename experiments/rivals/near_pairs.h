@@ -53,6 +53,14 @@ struct Edges {
           static_cast<std::int32_t>(all.size() - 1);
     }
   }
+
+  double mean_length(const Mesh& mesh) const {
+    double sum = 0.0;
+    for (const Edge& edge : all)
+      sum += distance(mesh.vertices[static_cast<std::size_t>(edge.from)],
+                      mesh.vertices[static_cast<std::size_t>(edge.to)]);
+    return sum / static_cast<double>(all.size());
+  }
 };
 
 /// Boxes of triangles, grown by a margin, in a tree of Embree's.

@@ -4,12 +4,10 @@
 // Each vertex to the other surface, both ways, as in cloth and many engines. Our decisions: the
 // partner is the nearest point within the cutoff, on any side; vertices with one partner count
 // each; edge-edge is missed. Candidates by Embree's point queries (float, with margin).
-#include "closest.h"
+#include "near_pairs.h"
 #include "plugin.hpp"
-#include <embree3/rtcore.h>
 
 #include <memory>
-#include <stdexcept>
 
 namespace {
 
@@ -19,10 +17,8 @@ using namespace rivals;
 class Tree {
  public:
   explicit Tree(const Mesh& mesh) : mesh_(mesh), margin_(1e-6 * mesh.diagonal) {
-    device_ = rtcNewDevice("threads=1,set_affinity=0");
-    if (device_ == nullptr) throw std::runtime_error("Embree cannot be started");
-    scene_ = rtcNewScene(device_);
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    scene_ = rtcNewScene(device_.device);
+    RTCGeometry geometry = rtcNewGeometry(device_.device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -38,10 +34,7 @@ class Tree {
   }
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
-  ~Tree() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
+  ~Tree() { rtcReleaseScene(scene_); }
 
   struct Nearest {
     double distance;
@@ -84,7 +77,7 @@ class Tree {
 
   const Mesh& mesh_;
   double margin_;
-  RTCDevice device_ = nullptr;
+  Device device_;
   RTCScene scene_ = nullptr;
 };
 

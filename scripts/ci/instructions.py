@@ -10,8 +10,9 @@ import shutil
 import subprocess
 
 FUNCTION = re.compile(r"^ *([0-9,]+) .*:lmdbench::([A-Za-z]+::(?:search|track))\(lmdbench::Pose", re.MULTILINE)
-# One repetition has the same counts as many.
-SHORTENED = ("/driver/repetitions=1", "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0", "/frames=400")
+CONTACT = re.compile(r"([0-9]+) frames, ([0-9]+) in contact")
+# One repetition has the same counts as many. Recorded scenes begin with up to 730 free frames.
+SHORTENED = ("/driver/repetitions=1", "/probes/truth/stride_frames=0", "/probes/fcl/stride_frames=0", "/frames=1600")
 
 
 class NotCounted(Exception):
@@ -19,13 +20,13 @@ class NotCounted(Exception):
 
 
 def count(program, scene, folder, name, root):
-    """{"Method::function": instructions} of one run; leaves NAME.log and NAME.callgrind in `folder`."""
+    """{"Method::function": instructions} of one run, and (frames, of them in contact), None if it does not tell; leaves NAME.log and NAME.callgrind in `folder`."""
     log, counts, out = (os.path.join(folder, name + ending) for ending in (".log", ".callgrind", ".h5"))
     for left in (out, out + ".part"):  # of a call that was interrupted
         if os.path.exists(left):
             os.remove(left)
     # Without address randomisation sizes of hash tables and alignments are the same, too.
-    command = ["setarch", "--addr-no-randomize", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, program, "--quiet",
+    command = ["setarch", "--addr-no-randomize", "valgrind", "--tool=callgrind", "--callgrind-out-file=" + counts, program,
                "run", *scene, *(word for pair in SHORTENED for word in ("--set", pair)), "--out", out]
     with open(log, "w", encoding="utf-8") as stream:
         done = subprocess.run(command, cwd=root, stdin=subprocess.DEVNULL, stdout=stream, stderr=stream, check=False)
@@ -37,14 +38,16 @@ def count(program, scene, folder, name, root):
         found.setdefault(function, int(instructions.replace(",", "")))
     if not found:
         raise NotCounted(f"callgrind saw no search in {program} (remedy: keep its symbols)")
-    return found
+    with open(log, encoding="utf-8", errors="replace") as stream:
+        told = CONTACT.search(stream.read())
+    return found, told and tuple(map(int, told.groups()))
 
 
 def compared(base, candidate, scene, folder, root):
-    """(function, base's instructions, candidate's), None where a side has no such function; `scene`: experiment and overrides, as
-    `lmdbench run` has them."""
+    """[(function, base's instructions, candidate's)], None where a side has no such function, and the frames as `count` has them; `scene`:
+    experiment and overrides, as `lmdbench run` has them."""
     if shutil.which("valgrind") is None:
         raise NotCounted("no valgrind (remedy: ./scripts/setup.sh)")
     os.makedirs(folder, exist_ok=True)
-    before, after = (count(program, scene, folder, name, root) for program, name in ((base, "base"), (candidate, "candidate")))
-    return [(function, before.get(function), after.get(function)) for function in sorted(before | after)]
+    (before, frames), (after, _) = (count(program, scene, folder, name, root) for program, name in ((base, "base"), (candidate, "candidate")))
+    return [(function, before.get(function), after.get(function)) for function in sorted(before | after)], frames

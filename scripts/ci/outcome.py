@@ -30,7 +30,7 @@ LONGEST_VALUE = 100
 NOT_OF_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd]")
 
 DIFFERENCES = ("method", "dataset", "frame", "base", "candidate")
-INSTRUCTIONS = ("instructions of", "base", "candidate", "change", "verdict")
+INSTRUCTIONS = ("instructions of", "base", "candidate", "change", "frames", "verdict")
 TIMES = ("method", "stage", "base [us]", "candidate [us]", "ratio", "interval", "detectable", "verdict")
 
 Failure = collections.namedtuple("Failure", "side step message log")
@@ -46,8 +46,9 @@ class Evidence:
     failure: Failure = None  # why there are no results
     other_experiment: str = None  # the judge's message
     answer: dict = None  # of the judge over all rounds: `lmdbench compare --json`
-    seconds: dict = None  # by side, method and stage: one number a process
+    seconds: dict = None  # by side and name (regression.seconds): one number a process
     instructions: list = None  # (function, base, candidate)
+    counted: tuple = None  # frames whose instructions were counted, and how many of them are in contact
     not_counted: str = "results differ, or --instructions 0"
     share: float = 0.01  # of instructions: the least that matters
     times: Times = None
@@ -81,13 +82,16 @@ def instruction_checks(evidence):
     if not evidence.instructions:
         return [Check("instructions", "callgrind", NOT_JUDGED, "instructions were not counted: " + evidence.not_counted)]
     checks = []
+    frames = "first {}, {} in contact".format(*evidence.counted) if evidence.counted else "unknown"
     for function, base, candidate in evidence.instructions:
         if base and candidate:
             change = f"{100 * (candidate / base - 1.0):+.2f} %"
-            word, message = "slower" if candidate > base * (1.0 + evidence.share) else "same", f"{change} instructions in {function}, counted by callgrind"
+            blind = evidence.counted and evidence.counted[1] == 0  # what matters was not looked at
+            word = "slower" if candidate > base * (1.0 + evidence.share) else NOT_JUDGED if blind else "same"
+            message = f"{change} instructions in {function}, counted by callgrind (frames: {frames})"
         else:
             change, word, message = "-", NOT_JUDGED, f"only the {'base' if base else 'candidate'} has {function}"
-        checks.append(Check("instructions", function, word, message, INSTRUCTIONS, [(function, base or "-", candidate or "-", change, word)]))
+        checks.append(Check("instructions", function, word, message, INSTRUCTIONS, [(function, base or "-", candidate or "-", change, frames, word)]))
     return checks
 
 
@@ -108,7 +112,7 @@ def time_checks(evidence):
             word, message = "unsure", message + "; looks slower, which fresh rounds did not confirm"
         else:
             word = t["verdict"]
-        seconds = [evidence.seconds[side].get((method, stage)) if evidence.seconds else None for side in ("base", "candidate")]
+        seconds = [evidence.seconds[side].get(f"{method}/{stage}".replace(" ", "_")) if evidence.seconds else None for side in ("base", "candidate")]
         row = (method, stage, *(f"{1e6 * statistics.median(values):.4g}" if values else "-" for values in seconds), f"{t['ratio']:.3f}", interval,
                "-" if t["detectable"] is None else f"{100 * t['detectable']:.2g} %", word)
         checks.append(Check(method, stage, word, message, TIMES, [row]))

@@ -185,12 +185,11 @@ class Regression:
 
 
 def seconds(file):
-    """{(method, stage): one number a process} of times in Google Benchmark's format."""
+    """{method/stage, "_" for blanks: one number a process} of times in Google Benchmark's format."""
     found = {}
     with open(file, encoding="utf-8") as stream:
         for row in json.load(stream)["benchmarks"]:
-            method, stage = row["name"].rsplit("/", 1)
-            found.setdefault((method, stage.replace("_", " ")), []).append(1e-9 * row["real_time"])
+            found.setdefault(row["name"], []).append(1e-9 * row["real_time"])
     return found
 
 
@@ -200,8 +199,8 @@ def gather(regression, arguments, evidence):
         if regression.behaviour() is None:
             if evidence.share > 0.0:
                 try:
-                    evidence.instructions = instructions.compared(regression.programs["base"], regression.programs["cand"], regression.scene,
-                                                                  os.path.join(arguments.out, "callgrind"), ROOT)
+                    evidence.instructions, evidence.counted = instructions.compared(regression.programs["base"], regression.programs["cand"], regression.scene,
+                                                                                     os.path.join(arguments.out, "callgrind"), ROOT)
                 except instructions.NotCounted as error:
                     evidence.not_counted = str(error)
             if not any(check.word == "slower" for check in outcome.instruction_checks(evidence)):

@@ -284,6 +284,15 @@ class Result:
         return texts_of(self.h5["/provenance/machine"].attrs) if "/provenance/machine" in self.h5 else {}
 
 
+ROUNDING = 1e-8  # force errors below this share of F_max are rounding, and drawn as 0
+MISSES_ALL = "finds no true LMD"
+
+
+def misses_all(recall, force_error):
+    """Whether a set is a failure. In flush contact other contacts than the true LMDs can give the true force: it is none then."""
+    return recall == 0.0 and not force_error < ROUNDING
+
+
 def nan_median(values, axis=None):
     """Median of what was measured; NaN without a warning where nothing was."""
     values = np.asarray(values, dtype=float)
@@ -329,10 +338,10 @@ class Truth:
         self.force_error = method.read(group + "force_error")
 
     def found_in(self, shares, chosen):
-        """Share of the true LMDs of the chosen probed frames that the method has; NaN when there are none."""
+        """Share of the true LMDs of the chosen probed frames that the method has; NaN when there are none, or it promises no set."""
         counts = self.true_count[chosen]
         total = float(np.sum(counts))
-        return float(np.nansum(shares[chosen] * counts) / total) if total > 0 else float("nan")
+        return float(np.sum(np.where(counts > 0, shares[chosen], 0.0) * counts) / total) if total > 0 else float("nan")
 
 
 def truth_of(method):

@@ -5,7 +5,7 @@
 
 Runs of each scene, in the same program, without a device's clipping: certified and improved along the whole path; all methods at poses
 evenly spread over its frames in contact; all methods along a few frames about the largest step of the plain sum, ten- and hundredfold
-subdivided; and certified under `shared` along all of these, which is the continuous force. The plain sum of certified's complete set is the
+subdivided, after a rest at the first of them; and certified under `shared` along all of these, which is the continuous force. The plain sum of certified's complete set is the
 other truth. A force that is a rival's own has a scale of its own: it gets the one factor a scene and truth that brings it nearest to
 the truth. Last, `lmdbench stability` taps each method at rest in four closed loops, and finds the largest stiffness at which it does not
 shake. Tables go to rivals.md, the figure to rivals.png in --out.
@@ -41,7 +41,9 @@ CLOSED_LOOPS = ("box", "wedge", "peg", "bunny")
 RIVALS = (
     ("vertices", {"name": "vertices"}, style.ORANGE, "v"),
     ("manifold", {"name": "manifold"}, style.SKY, "P"),
+    ("manifold-all", {"name": "manifold", "points": "all"}, style.SKY, "X"),
     ("barrier", {"name": "barrier"}, style.GREEN, "s"),
+    ("barrier-plain", {"name": "barrier", "maximum": "plain"}, style.GREEN, "^"),
     ("barrier-each", {"name": "barrier", "weights": "each"}, style.GREEN, "D"),
     ("gcp", {"name": "gcp"}, style.PURPLE, "^"),
     ("points", {"name": "points"}, style.BLUE, "o"),
@@ -49,8 +51,10 @@ RIVALS = (
     ("proxy", {"name": "proxy"}, style.GREY, "*"),
 )
 OURS = (("certified", {"name": "certified"}, style.BLACK, "o"), ("improved", {"name": "improved"}, style.VERMILLION, "s"))
+HOLLOW = ("manifold-all", "barrier-plain", "barrier-each", "points-coarse")
 SHARED = "certified, shared"
 SUBDIVISIONS = (1, 10, 100)
+REST = 40  # frames before a stretch, in no step: two periods of the scenes' searches, since improved has no set before its first search is back
 TRUTH_FRAMES = 10
 LEAST_STEP = 1e-5  # of F_max; smaller errors are drawn here
 
@@ -77,14 +81,14 @@ def rms(vectors):
 
 
 def largest_steps(forces):
-    """By subdivision, of forces along a path that is subdivided by the finest."""
-    finest = SUBDIVISIONS[-1]
+    """By subdivision, of forces along a path that is subdivided by the finest, after its rest."""
+    forces, finest = forces[REST:], SUBDIVISIONS[-1]
     return [float(np.max(np.linalg.norm(np.diff(forces[:: finest // times], axis=0), axis=1))) for times in SUBDIVISIONS]
 
 
 def subdivided(position, orientation, times):
-    """Straight in position, even in turn."""
-    places, turns = [], []
+    """Straight in position, even in turn, after a rest at the first pose."""
+    places, turns = [position[0]] * REST, [orientation[0]] * REST
     for i in range(len(position) - 1):
         a, b = orientation[i], orientation[i + 1] * (1.0 if orientation[i] @ orientation[i + 1] >= 0 else -1.0)
         angle = np.arccos(np.clip(a @ b, -1.0, 1.0))
@@ -112,8 +116,8 @@ class Scene:
             raise ResultError(f"{self.file}: is hardly ever in contact (remedy: choose another scene)")
         self.frames = touched[np.linspace(0, touched.size - 1, min(arguments.poses, touched.size)).astype(int)]
         poses = self.write_path("poses", pose[0][self.frames], pose[1][self.frames])
-        self.poses = self.run("poses", ours[:1] + rivals, "sum", poses, truth=max(len(self.frames) // TRUTH_FRAMES, 1))
-        self.poses_shared = self.run("poses", ours[:1], "shared", poses)
+        self.poses, self.poses_shared = (self.run("poses", methods, law, poses, truth=max(len(self.frames) // TRUTH_FRAMES, 1))
+                                         for methods, law in ((ours[:1] + rivals, "sum"), (ours[:1], "shared")))
         steps = np.linalg.norm(np.diff(self.path.method("certified").read("force"), axis=0), axis=1)
         steps[~(gap[1:] > 0)] = 0.0
         first = int(np.clip(np.argmax(steps) - arguments.stretch // 2, 0, len(gap) - arguments.stretch - 1))
@@ -140,18 +144,17 @@ class Scene:
 
     def rows(self):
         """label: what the tables and the figure say of it, forces in F_max."""
-        sum_here, shared_here = (run.method("certified").read("force") for run in (self.poses, self.poses_shared))
-        rows = {SHARED: {"promise": "complete-set", "ms": self.time(self.path_shared.method("certified")), "shared": 0.0,
-                         "sum": rms(shared_here - sum_here) / self.maximum, "recall": 1.0, "precision": 1.0,
-                         "steps": self.scaled_steps(self.steps_shared.method("certified"), 1.0)}}
+        shared = self.poses_shared.method("certified")
+        sum_here, shared_here = self.poses.method("certified").read("force"), shared.read("force")
+        rows = {SHARED: {"promise": shared.promise, **self.at_poses(shared), "path ms": self.time(self.path_shared.method("certified")), "shared": 0.0,
+                         "sum": rms(shared_here - sum_here) / self.maximum, "steps": self.scaled_steps(self.steps_shared.method("certified"), 1.0)}}
         on_path = {law: run.method("certified").read("force")[self.frames]
                    for law, run in (("sum", self.path), ("shared", self.path_shared))}
         for label, *_ in OURS:
             method = self.path.method(label)
             force = method.read("force")[self.frames]
-            exact = label == "certified"
-            rows[label] = {"promise": method.promise, "ms": self.time(method), "recall": 1.0 if exact else np.nan,
-                           "precision": 1.0 if exact else np.nan, "steps": self.scaled_steps(self.steps.method(label), 1.0),
+            rows[label] = {"promise": method.promise, **self.at_poses(self.poses.methods.get(label)), "path ms": self.time(method),
+                           "steps": self.scaled_steps(self.steps.method(label), 1.0),
                            **{law: rms(force - truth) / self.maximum for law, truth in on_path.items()}}
         for label, *_ in RIVALS:
             method = self.poses.method(label)
@@ -160,13 +163,16 @@ class Scene:
             for law, truth in (("shared", shared_here), ("sum", sum_here)):
                 errors[law], factor = scaled_error(force, truth) if own else (rms(force - truth), 1.0)
                 errors[f"{law} factor"] = factor
-            set_is_judged = method.promise != "force-only"
-            rows[label] = {"promise": method.promise, "own": own, "ms": self.time(method),
-                           "recall": method.number("recall") if set_is_judged else np.nan,
-                           "precision": method.number("precision") if set_is_judged else np.nan, "shared": errors["shared"] / self.maximum,
-                           "sum": errors["sum"] / self.maximum,
+            rows[label] = {"promise": method.promise, "own": own, **self.at_poses(method), "path ms": np.nan,
+                           "shared": errors["shared"] / self.maximum, "sum": errors["sum"] / self.maximum,
                            "steps": self.scaled_steps(self.steps.method(label), errors["shared factor"])}
         return rows
+
+    def at_poses(self, method):
+        """Time and set at the unrelated poses; no numbers of a method that was not there, such as improved, which has no old set to track."""
+        set_is_judged = method is not None and method.promise != "force-only"
+        return {"ms": np.nan if method is None else self.time(method),
+                **{name: method.number(name) if set_is_judged else np.nan for name in ("recall", "precision")}}
 
     def has_own_force(self, label):
         entry = next(entry for entry in self.poses.experiment["methods"] if entry["label"] == label)
@@ -209,9 +215,10 @@ def tables(all_rows, loops):
     lines = []
     for name, rows in all_rows.items():
         lines += [f"## {name}", ""]
-        lines += table(("method", "promise", "ms a pose", "from `shared`", "from the sum", "recall", "precision"),
-                       [(label + (" (own force)" if row.get("own") else ""), row["promise"], shown(row["ms"]), shown(row["shared"]),
-                         shown(row["sum"]), shown(row["recall"]), shown(row["precision"])) for label, row in rows.items()])
+        lines += table(("method", "promise", "ms a pose (along the path)", "from `shared`", "from the sum", "recall", "precision"),
+                       [(label + (" (own force)" if row.get("own") else ""), row["promise"],
+                         shown(row["ms"]) + ("" if np.isnan(row["path ms"]) else f" ({shown(row['path ms'])})"),
+                         *(shown(row[name]) for name in ("shared", "sum", "recall", "precision"))) for label, row in rows.items()])
     lines += ["## Largest step, by subdivision of a stretch: 1, 10, 100", ""]
     labels = list(next(iter(all_rows.values())))
     lines += table(("method", *all_rows), [(label, *(", ".join(shown(step, 2) for step in rows[label]["steps"])
@@ -232,7 +239,7 @@ def draw(all_rows, out):
         for label, row in rows.items():
             colour, mark = marks[label]
             drawn = {"color": colour, "marker": mark, "markersize": 5.0, "markeredgewidth": 0.8, "label": label,
-                     "markerfacecolor": "white" if row["promise"] == "force-only" or label in ("barrier-each", "points-coarse") else colour}
+                     "markerfacecolor": "white" if row["promise"] == "force-only" or label in HOLLOW else colour}
             above.plot([row["ms"]], [max(row["shared"], floor)], linestyle="none", **drawn)
             below.plot(SUBDIVISIONS, np.maximum(row["steps"], LEAST_STEP), linewidth=0.9, **{**drawn, "markersize": 3.5})
         above.set(xscale="log", yscale="log", title=name)
@@ -246,7 +253,7 @@ def draw(all_rows, out):
     axes[1, 0].set_ylabel("largest step of force\n/ $F_{max}$")
     axes[0, 0].annotate("0", (0.03, 0.03), xycoords="axes fraction", fontsize=6.5)
     handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, ncol=6, loc="lower center", bbox_to_anchor=(0.5, 0.0))
+    figure.legend(handles, labels, ncol=7, loc="lower center", bbox_to_anchor=(0.5, 0.0))
     figure.tight_layout(rect=(0, 0.1, 1, 1), w_pad=0.4)
     return style.save(figure, out, "rivals")
 

@@ -9,9 +9,7 @@ import math
 import h5py
 import numpy as np
 
-from lmdbench_results import ResultError, open_h5, text, texts_of
-
-MISSES_ALL = "finds no true LMD"
+from lmdbench_results import MISSES_ALL, ResultError, misses_all, open_h5, text, texts_of
 
 
 def is_sweep(file):
@@ -67,7 +65,7 @@ class Point:
             return self.failure
         if not math.isfinite(self.number("force_error_rms_n")):
             return "no true force in contact"
-        return MISSES_ALL if self.number("recall") == 0.0 else ""
+        return MISSES_ALL if misses_all(self.number("recall"), self.force_error) else ""
 
     @property
     def period(self):
@@ -106,9 +104,14 @@ class Sweep:
                 self.machine = texts_of(h5["provenance/machine"].attrs) if "provenance/machine" in h5 else {}
         except OSError as error:
             raise ResultError(f"{self.file}: cannot be read: {error} {remedy}")
-        self.name, self.title = attributes["name"], attributes["title"]
+        self.sweep_name, self.title = attributes["name"], attributes["title"]
+        self.name = self.sweep_name  # variants get a longer one (variants.py)
         self.clock_overhead_ns = 1e9 * float(attributes["clock_overhead_s"])
         self.points = [Point(self, index) for index in range(len(self.texts["scene"]))]
+
+    @property
+    def experiment(self):
+        return json.loads(self.definition or "{}")
 
     @property
     def scenes(self):
@@ -147,11 +150,6 @@ class Line:
 
     def __init__(self, points, place, fixed):
         self.points, self.place, self.fixed = points, place, fixed
-
-    @property
-    def name(self):
-        """Of the axis, in words; empty for a point alone."""
-        return self.place.rsplit("/", 1)[-1].replace("_", " ") if self.place else ""
 
     def value(self, point):
         """Of the axis, and of what tells the line from its neighbours."""

@@ -15,7 +15,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, no_truth, run_script, truth_of
+from lmdbench_results import MISSES_ALL, ROUNDING, ResultError, misses_all, no_truth, run_script, truth_of
 from variants import open_results
 
 import matplotlib.pyplot as plt
@@ -29,7 +29,6 @@ LANE_SHARE = 0.2
 MARGIN = 0.1  # decades between points and the ends of an axis
 SHORTEST_RANGE = 0.6  # decades
 NEAR = 0.35  # decades from an axis to the budget that it still reaches for
-ROUNDING = 1e-8  # errors below this share of F_max are rounding, and drawn as 0
 LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5),)
 
 
@@ -54,8 +53,8 @@ class Point:
             self.failure = "force is not finite"
         elif not np.isfinite(self.force_error):
             self.failure = "no true force in contact"
-        elif self.missed >= 1.0:
-            self.failure = "finds no true LMD"
+        elif misses_all(method.number("recall"), self.force_error):
+            self.failure = MISSES_ALL
 
 
 # Quantity, a more lenient one (an open mark on the same level), its most in decades, label.
@@ -119,6 +118,8 @@ def draw_panel(axes, points, quantity, lenient, most, label, markers, colours, l
         error = getattr(point, quantity)
         colour = colours[point.method.label]
         bad = bool(point.failure)
+        if not bad and not np.isfinite(error):
+            continue  # no set is promised that could miss an LMD
         lane = spread(in_lane.index(point), len(in_lane), lane_decades) if point in in_lane else 1.0
         place = failed * lane if bad else (error if error > 0 else zero * lane)
         if lenient and not bad:

@@ -13,7 +13,7 @@ import sweep as sweep_figure
 import work_precision
 from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, role_table
 from lmdbench_results import truth_of
-from studies import html_of, slug
+from studies import html_of, slug, unique
 
 
 def csv_text(headings, rows):
@@ -53,7 +53,7 @@ def entry(figure, folder, name, title, text, table="", narrow=None):
             "csv": table, "html": "", "csv_results": [], "folded": ""}
 
 
-def sweep_entry(sweep, folder):
+def sweep_entry(sweep, folder, taken):
     """Figure and answer of a sweep: which method at which budget, and where one gets cheaper than the other."""
     tables = ["Least RMS force error [% of F_max of one LMD] within so much run time of a second in contact, searches included:",
               "", *sweep_figure.budget_table(sweep)]
@@ -61,9 +61,10 @@ def sweep_entry(sweep, folder):
     if crossing:
         tables += ["`improved` costs less than `certified`, with older sets, where it searches more rarely than every", "", *crossing]
     made = entry(
-        sweep_figure.draw(sweep), folder, f"sweep-{sweep.name}", "Error against run time" if sweep.name == "budget" else sweep.title,
+        sweep_figure.draw(sweep), folder, unique(f"sweep-{sweep.sweep_name}", taken),
+        ("Error against run time" if sweep.sweep_name == "budget" else sweep.title) + sweep.name.removeprefix(sweep.sweep_name),
         f"{sweep.title}. A line a series, a point a setting, truth in every frame. Lower left is better; shaded lanes hold errors of exactly "
-        "zero and points that fail or find no true LMD.", sweep_csv(sweep))
+        "zero and points that fail or find neither a true LMD nor the true force.", sweep_csv(sweep))
     return {**made, "html": html_of("\n".join(tables))}
 
 
@@ -86,12 +87,12 @@ def over_time_entry(results, folder, by_paper):
     return {**made, "folded": "" if by_paper else "As a figure to print", "csv_results": [(i, results[i].name) for i in taken]}
 
 
-def clock_entry(result, folder):
+def clock_entry(result, folder, taken):
     """Loop timing over the floor and ages over time of a run with the driver realtime."""
     named = [(clock.label, clock) for clock in clocks(result)]
     lists = (excess_table(named), lateness_table(named), age_table(named), role_table(named))
     made = entry(
-        draw_timing(named), folder, f"clock-{slug(result.name)}", f"On the clock: {result.name}",
+        draw_timing(named), folder, unique(f"clock-{slug(result.name)}", taken), f"On the clock: {result.name}",
         "How late the servo loop wakes and how late its force is, over an empty loop of the same priority on the same core; and how old "
         "the sets in use are. What the empty loop is late by is the machine's own: verdicts rest on what exceeds it. Intervals are 95 %.",
         csv_text(["method", "series", "share", "value [s]", "low [s]", "high [s]"],
@@ -113,12 +114,13 @@ def work_precision_text(results):
 
 
 def figures(results, sweeps, folder, by_paper):
-    entries = [sweep_entry(sweep, folder) for sweep in sweeps]
+    taken = set()
+    entries = [sweep_entry(sweep, folder, taken) for sweep in sweeps]
     probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
     if probed:
         entries.append(entry(
             work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
             work_precision_text(probed), work_precision_csv(probed), work_precision.draw(probed, narrow=True)))
-    entries += [clock_entry(result, folder) for result in results if clocks(result)]
+    entries += [clock_entry(result, folder, taken) for result in results if clocks(result)]
     over_time = over_time_entry(results, folder, by_paper)
     return entries + ([over_time] if over_time else [])

@@ -288,11 +288,25 @@ class OutcomeTest(Scratch):
         counts = [("A::search", 1000, 1010), ("B::search", 1000, None), ("C::track", None, 5)]
         console, cases = self.told(0, "same", same, counts)
         self.assertEqual(cases, {"B::search": outcome.NOT_JUDGED, "C::track": outcome.NOT_JUDGED})
-        self.assertIn("| A::search | 1000 | 1010 | +1.00 % | same |", console)
-        self.assertIn("| C::track | - | 5 | - | not judged |", console)
+        self.assertIn("| A::search | 1000 | 1010 | +1.00 % | unknown | same |", console)
+        self.assertIn("| C::track | - | 5 | - | unknown | not judged |", console)
         console, cases = self.told(1, "unsure", None, counts, share=0.009)
         self.assertEqual((cases["A::search"], cases["search"]), ("slower", outcome.NOT_JUDGED))
-        self.assertTrue(console.startswith("**slower: +1.00 % instructions in A::search, counted by callgrind**\n"), console)
+        self.assertTrue(console.startswith("**slower: +1.00 % instructions in A::search, counted by callgrind (frames: unknown)**\n"), console)
+
+    def test_instructions_of_frames_without_contact_judge_nothing_but_more_of_them(self):
+        same = outcome.Times("same", "sure", set())
+        for counted, candidate, word in (((400, 0), 1010, outcome.NOT_JUDGED), ((400, 1), 1010, None), ((400, 0), 1011, "slower")):
+            console, cases = self.told(word == "slower", "same", same, [("A::search", 1000, candidate)], counted=counted)
+            self.assertEqual(cases.get("A::search"), word, counted)
+            self.assertIn(f" % | first 400, {counted[1]} in contact | {word or 'same'} |", console)
+
+    def test_times_of_a_label_with_a_blank(self):
+        rows = [{"name": "my_method/local_update", "real_time": 2000.0}]
+        found = regression.seconds(self.write("base.json", json.dumps({"benchmarks": rows})))
+        evidence = outcome.Evidence(answer={"differences": [], "timings": [dict(timing("same", stage="local update"), method="my method", ratio=1.0, high=1.02)]},
+                                    seconds={"base": found, "candidate": found}, times=outcome.Times("same", "sure", set()))
+        self.assertIn("| my method | local update | 2 | 2 |", self.printed(lambda _: outcome.tell(evidence, self.folder)))
 
     def test_what_xml_cannot_hold(self):
         log = "\x1b[31merror:\x1b[0m expected ';' & <more>\n"

@@ -11,7 +11,7 @@ import unittest.mock
 import h5py
 import numpy as np
 
-from cases import Scratch
+from cases import ROOT, Scratch
 import claim_regions
 from claim_rules import CLAIMS
 import region_rules
@@ -58,7 +58,7 @@ def write_sweep(file, rows, name="test"):
 
 
 ROWS = [row("improved", 1, cost=1.0, error=0.01), row("improved", 10, cost=0.1, error=0.1), row("improved", 100, cost=0.01, error=0.4),
-        row("original", 10, cost=0.2, error=0.5), row("original", 100, cost=0.02, error=0.0, recall=0.0),
+        row("original", 10, cost=0.2, error=0.5), row("original", 100, cost=0.02, error=1e-6, recall=0.0),
         row("certified", cost=0.03, error=0.0, recall=1.0), row("improved-other", failure="mesh is missing")]
 
 
@@ -79,10 +79,27 @@ class SweepFile(SweepScratch):
         best = sweep_results.front(self.sweep(ROWS).of(scene="hard"), sweep.cost, sweep.error)
         self.assertEqual([point.text() for point in best], ["improved, a search every 100 frames", "certified"])
 
-    def test_a_point_without_any_true_lmd_is_a_failure_however_small_its_error(self):
+    def test_a_point_without_any_true_lmd_is_a_failure_unless_its_force_is_true(self):
         point = self.sweep(ROWS).points[4]
         self.assertEqual(point.trouble, sweep_results.MISSES_ALL)
         self.assertEqual(self.sweep(ROWS).points[6].trouble, "mesh is missing")
+        flush = self.sweep([row("original", cost=0.005, error=1e-14, recall=0.0), row("certified", error=0.0)]).points
+        self.assertEqual(flush[0].trouble, "")
+        self.assertEqual(sweep_results.front(flush, sweep.cost, sweep.error)[0].series, "original")
+
+    def test_no_sweep_counts_frames_before_its_slowest_search_is_back(self):
+        for file in (ROOT / "experiments" / "sweeps").glob("*.json"):
+            definition = json.loads(file.read_text(encoding="utf-8"))
+            slowest = max((latency for series in definition["series"] for axis in series.get("axes", [])
+                           for latency in axis.get("/driver/search_latency_frames", [])), default=0)
+            self.assertGreaterEqual(definition.get("from_frame") or slowest, slowest, file)
+
+    def test_births_count_once_and_wrong_frames_of_all_problems(self):
+        numbers = {"births": 20.0, "deaths": 20.0, "true_births": 30.0, "truth_checked_frames": 4, "truth_wrong_frames": 2}
+        text = sweep.markdown(self.sweep([row("certified", scene=scene, **numbers) for scene in ("hard", "soft")]), "")
+        self.assertIn("in 8 frames of the problems (4 differ)", text)
+        for rate in (intervals.Rate([20], [10.0]), intervals.Rate([30], [10.0])):
+            self.assertIn(f"| {rate} |", text)
 
     def test_crossing_is_interpolated_between_the_points_on_both_sides(self):
         points = self.sweep(ROWS).of(series="improved")
@@ -133,11 +150,11 @@ class SweepFile(SweepScratch):
         parted = sweep_results.lines(found)
         self.assertEqual([[p.period for p in line.points] for line in parted], [[5, 20, 100], [5, 20, 100]])
         self.assertEqual([line.value(line.points[0]) for line in parted], ["5, off", "5, orthogonal"])
-        self.assertEqual(parted[0].name, "search every frames", "the latency goes with it")
+        self.assertEqual(parted[0].place, "/driver/search_every_frames", "the latency goes with it")
         words = [point(5, 4, v) for v in ("off", "orthogonal", "vertex-normal")]
         self.assertEqual([len(line.points) for line in sweep_results.lines(self.sweep(words).points)], [1, 1, 1], "words have no order to join")
         (alone,) = sweep_results.lines(self.sweep([point(5, 4, "off")]).points)
-        self.assertEqual((alone.name, alone.value(alone.points[0])), ("", ""))
+        self.assertEqual((alone.place, alone.value(alone.points[0])), (None, ""))
         self.assertIn("labels: search every frames, visibility", [t.get_text() for t in sweep.draw(self.sweep(
             [point(n, n - 1, v) for v in ("off", "orthogonal") for n in (5, 20)])).texts][0])
 
