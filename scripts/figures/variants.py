@@ -48,12 +48,9 @@ def differences(variants):
     return [", ".join(f"{name(place)} {words(one[place])}" for place in differ[:MOST_NAMED] if place in one) for one in said]
 
 
-def open_results(files):
-    """The results, each with a name of its own: where two experiments have one name, with what differs in them; where nothing that is
-    named does, with the file."""
-    if len({os.path.realpath(file) for file in files}) < len(files):
-        raise ResultError(f"{', '.join(map(str, files))}: a file is there twice (remedy: name every result once)")
-    results = [Result(file) for file in files]
+def tell_apart(results):
+    """Gives each result or sweep a name of its own: where two have one name, with what differs in them; where nothing that is named
+    does, with the file."""
     variants = {}
     for result in results:
         variants.setdefault(result.name, []).append(result)
@@ -65,3 +62,14 @@ def open_results(files):
         for result in (result for result in group if names.count(result.name) > 1):
             result.name += f" ({os.path.relpath(result.file, folder)})"
     return results
+
+
+def refuse_twice(files):
+    if len({os.path.realpath(file) for file in files}) < len(files):
+        raise ResultError(f"{', '.join(map(str, files))}: a file is there twice (remedy: name every result once)")
+
+
+def open_results(files):
+    """The results, under names that tell them apart."""
+    refuse_twice(files)
+    return tell_apart([Result(file) for file in files])

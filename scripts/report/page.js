@@ -199,7 +199,7 @@ function connect_buttons() {
     root.dataset.theme = dark ? "light" : "dark";
     for (const plots of page.plots)
       for (const plot of plots) plot.updateOptions({axisLineColor: grid_colour(), gridLineColor: grid_colour()});
-    for (const view of page.views) if (view) view.repaint();
+    for (const view of page.views) if (view) view.render();
   });
 }
 

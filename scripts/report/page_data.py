@@ -43,8 +43,8 @@ def held(result, frames, values):
 
 
 def moving_recall(truth):
-    """(K) share of the true LMDs of the last RECALL_WINDOW probed frames that the method has."""
-    found = np.cumsum(np.nan_to_num(truth.recall) * truth.true_count)
+    """(K) share of the true LMDs of the last RECALL_WINDOW probed frames that the method has; NaN if it promises no set."""
+    found = np.cumsum(np.where(truth.true_count > 0, truth.recall, 0.0) * truth.true_count)
     true = np.cumsum(truth.true_count)
     before = np.maximum(np.arange(found.size) - RECALL_WINDOW, -1)
     window_found = found - np.where(before >= 0, found[before], 0.0)

@@ -30,7 +30,7 @@ from scene_data import scene  # noqa: E402
 from studies import FIRST, studies as study_sections  # noqa: E402
 from sweep_results import Sweep, is_sweep  # noqa: E402
 from tables import write_text  # noqa: E402
-from variants import open_results  # noqa: E402
+from variants import open_results, refuse_twice, tell_apart  # noqa: E402
 
 JAVASCRIPT = "/usr/share/javascript"
 LIBRARIES = (("three/three.min.js", "libjs-three"), ("three/examples/js/controls/OrbitControls.js", "libjs-three"),
@@ -204,7 +204,8 @@ def main(argv):
     parser.add_argument("--paper", nargs="?", const="", metavar="DIR", help="hold the results against the paper: its Figure 7, its claims and, "
                         "of a folder, its Figures 1 to 6 (scripts/figures/figure1.py to figure6.py)")
     arguments = parser.parse_args(argv)
-    sweeps = [Sweep(file) for file in arguments.results if is_sweep(file)]
+    refuse_twice(arguments.results)
+    sweeps = tell_apart([Sweep(file) for file in arguments.results if is_sweep(file)])
     runs = [(i, file) for i, file in enumerate(arguments.results) if not is_sweep(file)]
     results = open_results([file for _, file in runs])
     folders = [os.path.join(arguments.scenes, str(i)) if arguments.scenes else None for i, _ in runs]

@@ -352,7 +352,6 @@ class View {
       if (mark.userData.share) mark.scale.setScalar(mark.userData.share * this.camera.position.distanceTo(mark.position));
     this.renderer.render(this.scene, this.camera);
   }
-  repaint() { this.render(); }
 }
 
 page.views = [];

@@ -145,5 +145,4 @@ def scene(result, folder):
     group = f"/methods/{label}/path" if label else "/path"
     origin = (result.read(f"{group}/position")[first] + turned(middles["moving"], result.read(f"{group}/orientation")[[first]]))[0]
     return {"name": result.name, **upright(result), "origin": origin.tolist(), "meshes": meshes_json(bodies, middles, origin),
-            "tracks": [track_json(result, *track, middles, origin) for track in tracks.items()],
-            "maximum_force": max(method.constant("maximum_force_n") for method in result.methods.values())}
+            "tracks": [track_json(result, *track, middles, origin) for track in tracks.items()]}

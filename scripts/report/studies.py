@@ -5,11 +5,14 @@
 import base64
 import html
 import io
+import itertools
 import os
 import re
 
 import markdown
 from PIL import Image
+
+from lmdbench_results import ResultError
 
 # Studies that a reader looks for first, with places of their own in the page's navigation.
 FIRST = ("extreme", "hard-soft", "stability", "scaling", "ledger")
@@ -19,12 +22,15 @@ PICTURE_QUALITY = 75  # of 100: lines and text stay sharp
 
 def picture(file, width=PICTURE_WIDTH):
     """A picture inside the page, at a size that a page can carry."""
-    with Image.open(file) as image:
-        image = image.convert("RGB")
-        if image.width > width:
-            image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
-        stream = io.BytesIO()
-        image.save(stream, format="WEBP", quality=PICTURE_QUALITY, method=6)
+    try:
+        with Image.open(file) as image:
+            image = image.convert("RGB")
+    except (OSError, SyntaxError) as error:  # the second one is Pillow's of a damaged PNG
+        raise ResultError(f"{file}: is no picture: {error} (remedy: draw it again, or remove it)")
+    if image.width > width:
+        image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
+    stream = io.BytesIO()
+    image.save(stream, format="WEBP", quality=PICTURE_QUALITY, method=6)
     return "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
 
 
@@ -43,6 +49,13 @@ def slug(name):
     return re.sub(r"[^a-z0-9]+", "-", name.lower())
 
 
+def unique(name, taken):
+    """An id that no other one of the page has, with a number if need be; on some disks files a.svg and A.svg are one."""
+    numbered = next(made for made in itertools.chain([name], (f"{name}-{number}" for number in itertools.count(2))) if made.lower() not in taken)
+    taken.add(numbered.lower())
+    return numbered
+
+
 def html_of(text):
     """Of Markdown. Links to files beside a study would be broken on the page, and a name that looks like a link is none: both stay as words."""
     return re.sub(r'<a href="(?!https?:|#)[^"]*">(.*?)</a>', r"\1", markdown.markdown(text, extensions=["tables", "fenced_code"]))
@@ -50,8 +63,11 @@ def html_of(text):
 
 def study(file):
     """A section: its first heading is its title."""
-    with open(file, encoding="utf-8") as stream:
-        text = stream.read()
+    try:
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read()
+    except (OSError, UnicodeDecodeError) as error:
+        raise ResultError(f"{file}: cannot be read: {error} (remedy: name a Markdown file in UTF-8)")
     title = re.search(r"(?m)^# (.+)$", text) or re.search(r"(?m)^##? (.+)$", text)
     name = os.path.splitext(os.path.basename(file))[0]
     body = re.sub(r"(?m)^# .+\n", "", text, count=1)
@@ -63,4 +79,5 @@ def studies(files):
     """All of them, those of FIRST in its order, the others by name."""
     def place(entry):
         return (FIRST.index(entry["name"]) if entry["name"] in FIRST else len(FIRST), entry["name"])
-    return sorted(map(study, files), key=place)
+    taken = set()
+    return [{**entry, "id": unique(entry["id"], taken)} for entry in sorted(map(study, files), key=place)]

@@ -67,6 +67,8 @@ TEST_F(BadInput, ValuesAndFilesOfAnExperiment) {
            {"--set /force/maximum_force_n=nan", USAGE, {"/force/maximum_force_n: "}},
            {"--set /methods/0/name=orginal", USAGE, {"/methods/0/"}},
            {"--driver sundial", USAGE, {"/driver/kind: "}},
+           {"--driver lockstep --require-realtime", USAGE, {"shapes.json: /driver/kind: ", "two drivers"}},
+           {"--driver lockstep --set /driver/kind=realtime", USAGE, {"/driver/kind: ", "two drivers"}},
            {"--set /device=phantom-9000", USAGE, {"shapes.json: /device: ", "phantom-desktop"}},
            {"--set /moving/mesh=no-such-mesh", INPUT_DATA, {"manifest.json", "no-such-mesh"}},
            {"--set /moving/mesh=./no-such.off", INPUT_DATA, {"no-such.off"}},
@@ -167,6 +169,8 @@ TEST_F(BadInput, CommandLine) {
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0.1 --planar-tolerance wide").code,
             USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed no-such-mesh --cutoff 0.1").code, INPUT_DATA);
+  EXPECT_THAT(lmdbench("work-precision x.json --points 0 --json").err, HasSubstr("excludes"));
+  EXPECT_THAT(lmdbench("export r.h5 --out v --frames 0").err, HasSubstr("0 not in range 1 to 2147483647"));
 }
 
 TEST_F(BadInput, NonManifoldMeshGoesOnWithAWarning) {

@@ -95,6 +95,10 @@ TEST_F(HostilePlugins, LoseNoResultAndMarkTheirFrames) {
     EXPECT_GT(all.at(name).at("local_update_median_s").get<double>(), 0.0)
         << name << " is timed all the same";
   }
+  const std::vector<std::int64_t> lost = result.integers("/methods/crash/counters/frames_lost");
+  const std::vector<double> times = result.reals("/methods/crash/local_update_time");
+  for (std::size_t frame = 0; frame < lost.size(); ++frame)
+    EXPECT_EQ(std::isnan(times[frame]), lost[frame] > 0) << frame << ": without an answer there is no time";
   // Three good frames and a lost one, four times; after that it is not started again.
   EXPECT_EQ(marks("crash", "frames_lost"), 40 - 4 * 2);
   std::string notes;
@@ -165,6 +169,9 @@ TEST_F(HostilePlugins, AreRefusedAtTheDoorWhereTheyCannotBeLoaded) {
   EXPECT_THAT(
       lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "good.so --plugin " + FOLDER + "good.so").err,
       HasSubstr("there is a method \"good\" already"));
+  const Outcome twice = lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "twice.so");
+  EXPECT_EQ(twice.code, INPUT_DATA);
+  EXPECT_THAT(twice.err, HasSubstr("there is a method \"twice\" already"));
 }
 
 TEST_F(HostilePlugins, AreFoundByTheCheck) {
@@ -174,7 +181,7 @@ TEST_F(HostilePlugins, AreFoundByTheCheck) {
   EXPECT_EQ(pushes.code, 0) << pushes.out;
   EXPECT_THAT(pushes.out, AllOf(HasSubstr("passed  pushes: gives its force"), HasSubstr("no set is judged")));
   const std::string of_write = IS_SANITIZED ? "ended its process" : "crashed";
-  const std::map<std::string, std::string> said{{"crash", "crashed"},
+  const std::map<std::string, std::string> said{{"crash", "search 3: crashed"},
                                                 {"write_past_end", of_write},
                                                 {"not_a_number", "are not finite"},
                                                 {"too_many", "answers too large"},
@@ -215,9 +222,10 @@ TEST_F(HostilePlugins, QuerySaysWhatWasLost) {
                     scratch_.path());
   };
   const Outcome throws = query("throws");
-  EXPECT_EQ(throws.code, 0);
+  EXPECT_EQ(throws.code, 1) << "its empty set is no answer";
   EXPECT_THAT(throws.err, HasSubstr("throws, from outside: 1 "));
   EXPECT_THAT(throws.err, HasSubstr("the last one: "));
+  EXPECT_EQ(query("good").code, 0);
   EXPECT_THAT(query("good").err, Not(HasSubstr("the last one")));
 }
 

@@ -5,6 +5,7 @@
 #include <lmdbench/base/own_time.h>
 #include <lmdbench/lmd/own_wrench.h>
 #include <lmdbench/methods/registry.h>
+#include <lmdbench/plugin/check_plugin.h>
 #include <lmdbench/plugin/judged_contacts.h>
 #include <lmdbench/plugin/plugin.h>
 #include <lmdbench/plugin/plugin_caller.h>
@@ -25,6 +26,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -201,6 +203,37 @@ TEST(Plugin, TimesOfTheWayAreNotTheMethods) {
   const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   EXPECT_GT(seconds_of_others(), 0.0);
   EXPECT_LT(seconds_of_others(), all);
+}
+
+/// With room for more contacts it is asked again: once all is well, once it fails.
+TEST(Plugin, IsGivenMoreRoomOnce) {
+  for (const PluginTrust trust : {PluginTrust::NONE, PluginTrust::TRUSTED}) {
+    const MethodDescription description = only_method("grows", trust);
+    const auto method = description.make(two_spheres(), nlohmann::json::object());
+    WorkCounters marks;
+    LmdSet lmds;
+    for (int frame = 0; frame < 6; ++frame) method->search(Pose{}, lmds, marks);
+    EXPECT_EQ(marks[PluginMark::LOST], 0U);
+    EXPECT_EQ(marks[PluginMark::FLOAT_MODE], 1U) << "of the first call, whose answer did not fit";
+    EXPECT_EQ(lost(*method, Pose{}), 1U);
+    EXPECT_EQ(description.faults->last(), "failed with status 7");
+  }
+}
+
+TEST(Plugin, ThatIsTooSlowForTheCheckIsNotSaidToPass) {
+  const auto verdicts = [](double seconds) {
+    std::map<std::string, PluginFinding::Verdict> found;
+    for (const PluginFinding& finding : check_plugin(PLUGIN_FOLDER "/slow.so", seconds))
+      found[finding.question] = finding.verdict;
+    return found;
+  };
+  using enum PluginFinding::Verdict;
+  for (auto found = verdicts(3.0);
+       const std::string question :
+       {"answers every pose", "same again, backwards, shuffled", "same from a new instance",
+        "same with meshes counted otherwise", "same with a mesh in another frame"})
+    EXPECT_EQ(found.at(question), NOTED) << question;
+  EXPECT_EQ(verdicts(0.0).at("answers every pose"), FAILED);
 }
 
 TEST(Plugin, IsStartedAnewThreeTimes) {

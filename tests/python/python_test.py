@@ -165,7 +165,7 @@ class Arrays(Files):
                 sets[index]
 
     def test_meshes_keep_the_rows_of_the_arrays(self):
-        vertices = np.vstack([[9.0, 9.0, 9.0], CORNERS])
+        vertices = np.vstack([[np.nan, 9.0, 9.0], CORNERS])
         mesh = lmdbench.Mesh(vertices, SIDES.astype(np.uint16) + 1)
         used = np.vstack([CORNERS[SIDES[0, 0]], CORNERS])  # a vertex without triangles counts for nothing
         np.testing.assert_array_equal(mesh.vertices, used)
@@ -371,6 +371,7 @@ class Results(Files):
         self.assertEqual(list(result.searches("improved")["global_frame"]), [0, 20, 40])
         self.assertEqual(result.times("improved").shape[0], 60)
         lmds = result.lmds("improved")
+        self.assertEqual(set(lmds.attrs["units"]), set(lmds.columns))
         np.testing.assert_array_equal(lmds.groupby("frame").size().reindex(range(60), fill_value=0), h5["lmd_count"])
         np.testing.assert_array_equal(result.truth("improved")["recall"], h5["truth/recall"])
         told = {method["label"]: method for method in json.loads(done.stdout)["methods"]}

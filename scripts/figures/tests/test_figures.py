@@ -80,6 +80,7 @@ class ReadingTest(ScriptsTest):
         self.assertAlmostEqual(truth.found_in(truth.recall, chosen), found / counts[chosen].sum())
         self.assertNotAlmostEqual(truth.found_in(truth.recall, chosen), np.nanmean(truth.recall[chosen]), places=3)
         self.assertTrue(np.isnan(truth.found_in(truth.recall, truth.frames < 0)))
+        self.assertTrue(np.isnan(truth.found_in(np.full(truth.recall.size, np.nan), chosen)), "promises no set")
 
     def test_no_truth_probe_is_no_truth(self):
         self.assertIsNone(truth_of(Result(self.bare).method("original")))
@@ -305,6 +306,15 @@ class FigureTest(ScriptsTest):
         self.assertIn("failed", labels)
         self.assertIn("0", labels)
         self.assertIn("failed: improved in hard, force is not finite", [text.get_text() for text in figure.texts])
+
+    def test_work_precision_has_no_mark_for_the_recall_of_a_method_without_a_set(self):
+        def unset(h5):
+            for name in ("recall", "recall_adjacent"):
+                h5[f"/methods/original/summary/{name}"][...] = np.nan
+
+        force, missed = work_precision.draw([Result(self.edited("force.h5", unset))]).axes
+        colour = figure_style.colours_of(Result(self.hard).methods.values())["original"]
+        self.assertEqual([any(line.get_color() == colour for line in panel.lines) for panel in (force, missed)], [True, False])
 
     def test_labels_of_an_axis_stay_apart_however_far_errors_reach(self):
         def shift(error):

@@ -29,7 +29,8 @@ from test_sweep import ROWS, write_sweep  # noqa: E402
 class FakeRow:
     def __init__(self, label, error, median, p99, late=0):
         self.label, self.force_error = label, error
-        self.numbers = {"frame_time_median_s": median, "frame_time_p99_s": p99, "frames_late": late}
+        self.late = late
+        self.numbers = {"frame_time_median_s": median, "frame_time_p99_s": p99}
 
     def number(self, name):
         return self.numbers[name]
@@ -45,7 +46,7 @@ class Answer(Scratch):
         self.assertIn("good leaves the least force error: 10 %", sentence(rows))
 
     def test_prefers_the_faster_of_two_equals(self):
-        self.assertIn("quick", sentence([FakeRow("slow", 0.0, 1e-4, 2e-4), FakeRow("quick", 0.0, 1e-5, 2e-4)]))
+        self.assertIn("quick", sentence([FakeRow("slow", 0.0, 1e-4, 2e-4), FakeRow("quick", 1e-16, 1e-5, 2e-4)]))
 
     def test_says_how_many_frames_are_late(self):
         self.assertIn("3 of its frames are late", sentence([FakeRow("a", 0.0, 1e-5, 1e-4, late=3)]))
@@ -63,6 +64,18 @@ class Answer(Scratch):
         self.assertLessEqual(len(shown["first"]["headings"]), 7)
         self.assertEqual([line[1] for line in shown["first"]["rows"]], ["8 of 40", "0 of 40"])
         self.assertIn("recall, neighbouring features count [%]", shown["whole"]["headings"])
+
+    def test_on_the_clock_frames_without_a_tick_are_late_and_no_method_is_preferred(self):
+        file = write_result(self.path("clock.h5"))
+        with h5py.File(file, "a") as h5:
+            for label, missed in (("original", 3), ("improved", 0)):
+                h5[f"realtime/{label}/frame_source"] = np.repeat([0, 1, 2], [1990, missed, 10 - missed])
+        shown = answer(Result(file))
+        for table in (shown["first"], shown["whole"]):
+            column = table["headings"].index("frames without a tick")
+            self.assertEqual([line[column] for line in table["rows"]], ["3", "0"])
+        self.assertNotIn("least force error", shown["sentence"])
+        self.assertIn("late frames", answer(Result(write_result(self.path("hard.h5"))))["first"]["headings"])
 
     def test_numbers_are_in_the_unit_that_one_reads(self):
         self.assertEqual([time(value) for value in (float("nan"), 9.91e-6, 1.101e-3, 2.0, 0.9997e-3, 0.99991, 0.9994e-3, 1234.0)],
@@ -99,6 +112,8 @@ class Series(Scratch):
             recall = np.array([1.0, 0.0, np.nan, 0.5])
             true_count = np.array([2.0, 2.0, 0.0, 4.0])
         np.testing.assert_allclose(moving_recall(Truth), [1.0, 0.5, 0.5, 0.5])
+        Truth.recall = np.full(4, np.nan)
+        np.testing.assert_array_equal(moving_recall(Truth), np.full(4, np.nan))  # promises no set
 
     def test_encodes_what_the_result_holds(self):
         result = Result(write_result(self.path("hard.h5"), frames=300))
@@ -314,6 +329,19 @@ class Page(Scratch):
         self.assertNotIn("elsewhere.png", text)
         self.assertEqual(text.count("</script>"), text.count("<script"))
 
+    def test_studies_that_cannot_be_read_are_named(self):
+        self.write("figure1.png", "no picture")
+        with open(self.path("latin.md"), "wb") as stream:
+            stream.write(b"# \xe4")
+        for options, name in ((("--study", self.path("nosuch.md")), "nosuch.md"), (("--study", self.path("latin.md")), "latin.md"),
+                              (("--study", self.write("a.md", "# A\n\n![lines](figure1.png)\n")), "figure1.png"), (("--paper", self.folder), "figure1.png")):
+            with self.assertRaisesRegex(ResultError, f"^[^ ]*{name}: .*remedy"):
+                self.made(*options)
+
+    def test_studies_of_one_name_have_ids_of_their_own(self):
+        text = self.made("--study", *(self.write(f"{folder}/a.md", f"# Of {folder}\n\nwords\n") for folder in ("one", "two")))
+        self.assertEqual(re.findall(r'<section id="(study-[^"]*)"', text), ["study-a", "study-a-2"])
+
     def check_pictures(self, text, size, *colours):
         """There is one of each colour, in this order, in a part of the page."""
         for data, colour in zip(re.findall(r'src="data:image/webp;base64,([^"]+)"', text), colours, strict=True):
@@ -442,16 +470,27 @@ class SweepPage(Scratch):
     def page(self, *runs):
         write_sweep(self.path("sweep.h5"), ROWS, "budget")
         self.printed(report.main, *runs, self.path("sweep.h5"), "--out", self.path("page"))
-        self.assertTrue(os.path.exists(self.path("page", "sweep-budget.svg")))
         return self.read("page", "index.html")
 
     def test_alone_it_has_figure_budgets_crossing_and_every_point(self):
         text = self.page()
+        self.assertTrue(os.path.exists(self.path("page", "sweep-budget.svg")))
         self.assertIn('<section id="sweep-budget">', text)
         self.assertIn("certified: 0 %", text)
         self.assertIn("<td>33</td>", text)
         self.assertIn("mesh is missing", text)  # in the CSV
         self.assertNotIn('<section id="frames">', text)
+
+    def test_sweeps_of_one_name_are_told_apart(self):
+        write_sweep(self.path("other.h5"), [entry for entry in ROWS if entry["series"] == "improved"], "Budget")
+        write_sweep(self.path("more.h5"), ROWS, "budget")
+        text = self.page(self.path("other.h5"), self.path("more.h5"))
+        self.assertEqual(re.findall(r'<section id="(sweep-[^"]*)"', text), ["sweep-Budget", "sweep-budget-2", "sweep-budget-3"])
+        self.assertEqual(len(json.loads(text.split('id="page-data">', 1)[1].split("</script>", 1)[0])["tables"]), 3)
+        for words in ("<h2>Error against run time (more.h5)</h2>", "<h2>Error against run time (sweep.h5)</h2>", "<h3>budget (more.h5)</h3>"):
+            self.assertIn(words, text)
+        with self.assertRaisesRegex(ResultError, "a file is there twice"):
+            self.page(self.path("sweep.h5"))
 
     def test_beside_a_run_it_comes_first_and_the_run_keeps_its_sections(self):
         text = self.page(write_result(self.path("run.h5")))

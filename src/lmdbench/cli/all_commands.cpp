@@ -10,7 +10,7 @@ void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit
   add_init_command(app);
   add_stability_command(app, exit_status);
   add_record_command(app);
-  add_query_command(app);
+  add_query_command(app, exit_status);
   add_compare_command(app, exit_status);
   add_doctor_command(app, exit_status);
   add_report_command(app);

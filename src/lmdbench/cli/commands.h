@@ -20,7 +20,8 @@ void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit
 void add_run_command(CLI::App& app, const std::vector<std::string>& argv);
 void add_plan_command(CLI::App& app);
 void add_init_command(CLI::App& app);
-void add_query_command(CLI::App& app);
+/// @param exit_status CHECK_FAILED where a plugin left a pose without an answer
+void add_query_command(CLI::App& app, int& exit_status);
 /// @param exit_status receives the exit code of the verdict
 void add_compare_command(CLI::App& app, int& exit_status);
 /// @param exit_status CHECK_FAILED where a check finds a fault

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -28,7 +29,7 @@ void add_export_command(CLI::App& app) {
   command
       ->add_option("--frames", options->frames,
                    "at most so many frames, evenly spread; about 0.8 MB each for 16,000 triangles")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command->callback([options] {
     for (const auto& file : export_frames(ResultReader(options->result), options->out, options->frames))

@@ -9,7 +9,7 @@
 namespace lmdbench {
 
 void add_commands(CLI::App& app, const std::vector<std::string>& /*argv*/, int& exit_status) {
-  add_query_command(app);
+  add_query_command(app, exit_status);
   add_mesh_command(app);
   add_path_command(app);
   add_plugin_command(app, exit_status);

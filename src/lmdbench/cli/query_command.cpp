@@ -14,6 +14,7 @@
 #include <lmdbench/methods/query.h>
 #include <lmdbench/methods/registry.h>
 #include <lmdbench/motion/tum_file.h>
+#include <lmdbench/plugin/judged_contacts.h>
 #include <lmdbench/plugin/outsider_notes.h>
 #include <lmdbench/shape/flatten.h>
 
@@ -82,7 +83,7 @@ nlohmann::json chosen_options(const QueryOptions& options) {
   return complete_options(method_description(options.method, "", "--method"), chosen, "--option");
 }
 
-void run_query(const QueryOptions& options) {
+void run_query(const QueryOptions& options, int& exit_status) {
   if (!(options.cutoff > 0.0 && options.cutoff <= LARGEST_COORDINATE))
     throw UsageError(
         "", "--cutoff",
@@ -108,11 +109,14 @@ void run_query(const QueryOptions& options) {
   }
   for (const std::string& note : outsider_notes(method->description(), options.method, all))
     spdlog::warn("{}", note);
+  // An empty set in place of an answer must not look like an answer.
+  if (!method->description().plugin.empty() && all[PluginMark::LOST] > 0)
+    exit_status = static_cast<int>(ExitCode::CHECK_FAILED);
 }
 
 }  // namespace
 
-void add_query_command(CLI::App& app) {
+void add_query_command(CLI::App& app, int& exit_status) {
   auto* command = app.add_subcommand("query", "Print the LMD set of two meshes at one or many poses");
   const auto options = std::make_shared<QueryOptions>();
   command->add_option("--moving", options->moving, "moving mesh: a name of the manifest or a file")
@@ -150,7 +154,7 @@ void add_query_command(CLI::App& app) {
       "saddles too: all critical pairs of the distance, each with its index; over disjoint solids and an "
       "unlimited cutoff the indices add up to the product of their Euler characteristics");
   command->add_flag("--json", options->json, "one JSON object a pose, a line each");
-  command->callback([options] { run_query(*options); });
+  command->callback([options, &exit_status] { run_query(*options, exit_status); });
 }
 
 }  // namespace lmdbench

@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -38,7 +39,13 @@ struct RunOptions {
 void run_to_file(const RunOptions& options, const std::vector<std::string>& argv) {
   ExperimentArgument argument = options.experiment;
   std::vector<Override>& overrides = argument.overrides;
+  const std::string kind = options.require_realtime ? "realtime" : options.driver;
   if (!options.driver.empty()) overrides.push_back("/driver/kind=" + options.driver);
+  if (std::ranges::any_of(overrides, [&](const Override& set) {
+        return set.starts_with("/driver/kind=") && set.find(kind) == std::string::npos;
+      }))
+    throw UsageError(argument.file, "/driver/kind", "the command line asks for two drivers",
+                     "keep one of --driver, --require-realtime and --set /driver/kind=...");
   if (options.require_realtime)
     overrides.insert(overrides.end(), {"/driver/kind=realtime", "/driver/realtime/required=true"});
   const Experiment experiment = argument.load();

@@ -91,7 +91,7 @@ void add_work_precision_command(CLI::App& app, const std::vector<std::string>& a
       ->add_option("--set", options->overrides,
                    "override a value of the sweep: /json/pointer=value; repeatable")
       ->allow_extra_args(false);
-  command->add_flag("--json", options->json, "a JSON array, one object a point");
+  CLI::Option* json = command->add_flag("--json", options->json, "a JSON array, one object a point");
   CLI::Option* list =
       command->add_flag("--list", options->list, "only number the points, and say which are done");
   CLI::Option* points = command->add_option(
@@ -101,7 +101,7 @@ void add_work_precision_command(CLI::App& app, const std::vector<std::string>& a
       command->add_flag("--collect", options->collect,
                         "measure nothing: the result of what is in journals, an error where points lack");
   list->excludes(points)->excludes(collect);
-  points->excludes(collect);
+  points->excludes(collect)->excludes(json);
   command->callback([options, argv] { sweep_to_file(*options, argv); });
 }
 

@@ -44,24 +44,25 @@ void hide_unused_vertices(TriangleMesh& mesh) {
     if (!used[v]) mesh.vertices[v] = place;
 }
 
-/// The checks that reading a file makes.
-void check_mesh_in_memory(const TriangleMesh& mesh, const std::string& name) {
+/// The checks that reading a file makes, of all but unused vertices.
+void check_mesh_in_memory(TriangleMesh& mesh, const std::string& name) {
   const auto count = static_cast<std::int64_t>(mesh.vertices.size());
   if (mesh.triangles.empty())
     throw InputError(name, "", "holds no triangle", "give at least one row of three vertex numbers");
-  for (std::int64_t v = 0; v < count; ++v)
-    if (!mesh.vertices[static_cast<std::size_t>(v)].allFinite())
-      throw InputError(name, fmt::format("vertex {}", v), "has a coordinate that is not finite",
-                       "repair the mesh or leave the vertex out");
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const std::int32_t corner : mesh.triangles[t])
+    for (const std::int32_t corner : mesh.triangles[t]) {
       if (corner < 0 || corner >= count)
         throw InputError(name, fmt::format("triangle {}", t),
                          fmt::format("names vertex {} of {}", corner, count),
                          "vertices count from 0 in the order of the array");
+      if (!mesh.vertices[static_cast<std::size_t>(corner)].allFinite())
+        throw InputError(name, fmt::format("vertex {}", corner), "has a coordinate that is not finite",
+                         "repair the mesh or leave the vertex out");
+    }
   if (!(mesh.planar_tolerance >= 0.0 && mesh.planar_tolerance <= LARGEST_COORDINATE))
     throw InputError(name, "planar_tolerance", fmt::format("{} is no length", mesh.planar_tolerance),
                      "give 0, or metres");
+  hide_unused_vertices(mesh);
   refuse_extreme_size(mesh, name);
   check_mesh_limits(mesh, name);
 }
@@ -107,7 +108,6 @@ PreparedMesh::PreparedMesh(const std::filesystem::path& file, const std::string&
 
 PreparedMesh::PreparedMesh(TriangleMesh mesh, const std::string& planar_tolerance, const std::string& name) {
   check_mesh_in_memory(mesh, name);
-  hide_unused_vertices(mesh);
   body_ = prepare(std::move(mesh), planar_tolerance, name, flipped_);
 }
 
@@ -131,12 +131,8 @@ struct LmdSearch::State {
 };
 
 LmdSearch::LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed, double cutoff,
-                     const std::string& method, const std::string& options) {
-  const nlohmann::json chosen = options_of(method, options);
-  Scene scene = scene_of(moving, fixed, cutoff);
-  std::unique_ptr<Method> made = make_method(method, scene, chosen);
-  state_ = std::make_unique<State>(State{std::move(scene), std::move(made)});
-}
+                     const std::string& method, const std::string& options)
+    : LmdSearch(moving, fixed, std::vector<Pose>(fixed.size()), cutoff, method, options) {}
 
 LmdSearch::LmdSearch(const PreparedMesh& moving, const std::vector<PreparedMesh>& fixed,
                      const std::vector<Pose>& X_WF, double cutoff, const std::string& method,

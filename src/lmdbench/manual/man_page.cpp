@@ -30,17 +30,7 @@ std::string escaped(const std::string& text) {
 
 /// Keeps the text's lines.
 std::string lines(const std::string& text) {
-  return fmt::format("{}\n", fmt::join(
-                                 [&] {
-                                   std::vector<std::string> parts;
-                                   std::string rest = escaped(text);
-                                   for (std::size_t end; (end = rest.find('\n')) != std::string::npos;
-                                        rest.erase(0, end + 1))
-                                     parts.push_back(rest.substr(0, end));
-                                   parts.push_back(rest);
-                                   return parts;
-                                 }(),
-                                 "\n.br\n"));
+  return replaced(escaped(text), '\n', "\n.br\n") + "\n";
 }
 
 std::string title(const CommandText& command) {

@@ -27,7 +27,8 @@ struct PluginFinding {
 /// 4. and for renumbered vertices, triangles, corners, and another frame of the moving mesh;
 /// 5. does it keep its promise against exhaustive truth, and what does it miss without one;
 /// 6. how long does a pose take in the plugin, and the exchange with its process.
+/// @param seconds for all searches; a slower method gets fewer poses, and questions are left out
 /// @throws InputError where the plugin cannot be loaded
-std::vector<PluginFinding> check_plugin(const std::filesystem::path& file);
+std::vector<PluginFinding> check_plugin(const std::filesystem::path& file, double seconds = 40.0);
 
 }  // namespace lmdbench

@@ -15,7 +15,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -143,16 +142,10 @@ void serve(const std::string& file) {
       if (got != sizeof(request)) ::_exit(NOBODY_ASKS);
       answer = {};
       answer.number = request.number;
-      answer.reply = made.search(request.X_BA.data(), contacts->data(), contacts->capacity());
-      if (answer.reply.status == 0 && answer.reply.needed > contacts->capacity() &&
-          answer.reply.needed <= wire::MOST_CONTACTS) {
-        contacts = std::make_unique<GuardedContacts>(std::min(2 * answer.reply.needed, wire::MOST_CONTACTS));
-        const PluginReply first = answer.reply;
-        answer.reply = made.search(request.X_BA.data(), contacts->data(), contacts->capacity());
-        answer.reply.seconds += first.seconds;
-        answer.reply.changed_float_mode |= first.changed_float_mode;
-        if (answer.reply.needed > contacts->capacity()) answer.reply.status = PluginReply::UNSTEADY;
-      }
+      answer.reply = wire::search_with_room(
+          contacts->capacity(),
+          [&] { return made.search(request.X_BA.data(), contacts->data(), contacts->capacity()); },
+          [&](std::uint64_t capacity) { contacts = std::make_unique<GuardedContacts>(capacity); });
       if (answer.reply.status == 0 && answer.reply.needed <= contacts->capacity())
         std::memcpy(shared, contacts->data(), answer.reply.needed * sizeof(lmdbench_contact));
       send(answer);

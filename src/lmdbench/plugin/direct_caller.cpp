@@ -49,14 +49,8 @@ class DirectCaller : public PluginCaller {
       answer.lost = why_not_;
       return answer;
     }
-    PluginReply reply = call(X_BA);
-    if (reply.status == 0 && reply.needed > capacity_ && reply.needed <= wire::MOST_CONTACTS) {
-      const double first = reply.seconds;
-      make_room(2 * reply.needed);
-      reply = call(X_BA);
-      reply.seconds += first;
-      if (reply.needed > capacity_) reply.status = PluginReply::UNSTEADY;
-    }
+    PluginReply reply = wire::search_with_room(
+        capacity_, [&] { return call(X_BA); }, [&](std::uint64_t capacity) { make_room(capacity); });
     reply.changed_float_mode |= std::exchange(changed_float_mode_, false) ? 1U : 0U;
     judge_reply(reply, contacts_.data(), answer);
     return answer;

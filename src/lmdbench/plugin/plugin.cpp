@@ -15,6 +15,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <regex>
@@ -59,7 +60,7 @@ class PluginMethod : public Method, public HasOwnWrench {
   void search(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
-    double in_plugin = 0.0;
+    double in_plugin = std::numeric_limits<double>::quiet_NaN();
     own_ = {.about = X_WM.translation};
     const RigidTransform X(X_WM);
     const std::array<double, 12> X_BA = rows_of(X);
@@ -81,8 +82,9 @@ class PluginMethod : public Method, public HasOwnWrench {
       description_->faults->tell(answer.lost);
     }
     // A frame's time is that in the plugin. Sending poses and judging answers is this program's.
-    seconds_of_others() +=
-        std::max(0.0, std::chrono::duration<double>(Clock::now() - begin).count() - in_plugin);
+    // Without an answer the frame has no time, however soon a plugin fails.
+    const double others = std::chrono::duration<double>(Clock::now() - begin).count() - in_plugin;
+    seconds_of_others() += others < 0.0 ? 0.0 : others;
   }
 
   void track(const Pose& X_WM, LmdSet& lmds, WorkCounters& counters) override {
@@ -200,11 +202,13 @@ std::vector<MethodDescription> plugin_methods(const std::filesystem::path& file,
   } catch (const Json::exception&) {
     throw InputError(file.string(), "", "says of itself what cannot be read", "see lmdbench_method.h");
   }
-  const std::vector<std::string> names = method_names();
-  for (const MethodDescription& method : methods)
+  std::vector<std::string> names = method_names();
+  for (const MethodDescription& method : methods) {
     if (std::ranges::find(names, method.name) != names.end())
       throw InputError(file.string(), "", fmt::format("there is a method \"{}\" already", method.name),
                        "give the plugin's method another name");
+    names.push_back(method.name);
+  }
   return methods;
 }
 

@@ -4,6 +4,7 @@
 
 #include <lmdbench/plugin/loaded_plugin.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,24 @@ inline constexpr int SOCKET = 3, MESHES = 4, CONTACTS = 5, FIRST_UNUSED = 6;
 inline constexpr std::uint64_t MOST_CONTACTS = std::uint64_t{1} << 20;
 inline constexpr std::size_t CONTACT_BYTES = MOST_CONTACTS * sizeof(lmdbench_contact);
 static_assert(sizeof(lmdbench_contact) == 64, "pages hold a whole number of them");
+
+/// A plugin's search; again where it has more contacts than there is room, with room for twice as
+/// many.
+/// @param capacity  room that there is
+/// @param search    gives a PluginReply
+/// @param make_room takes a number of contacts
+template <typename Search, typename MakeRoom>
+PluginReply search_with_room(std::uint64_t capacity, const Search& search, const MakeRoom& make_room) {
+  const PluginReply first = search();
+  if (first.status != 0 || first.needed <= capacity || first.needed > MOST_CONTACTS) return first;
+  capacity = std::min(2 * first.needed, MOST_CONTACTS);
+  make_room(capacity);
+  PluginReply second = search();
+  second.seconds += first.seconds;
+  second.changed_float_mode |= first.changed_float_mode;
+  if (second.status == 0 && second.needed > capacity) second.status = PluginReply::UNSTEADY;
+  return second;
+}
 
 /// Begins the meshes' memory. Then: vertices of A, of B, triangles of A, of B, options ended by 0.
 struct Task {

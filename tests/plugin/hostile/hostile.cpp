@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Plugins that break rules, each this file with another KIND. All have some good frames, which
-// shows the fate of the others. GOOD, PUSHES and SAYS_GOODBYE do nothing wrong.
+// shows the fate of the others. GOOD, PUSHES, SAYS_GOODBYE and SLOW do nothing wrong.
 #include <lmdbench/plugin/lmdbench_method.h>
 
 #include <unistd.h>
@@ -38,6 +38,9 @@
 #define PUSHES 16
 #define BAD_SCHEMA 17
 #define SAYS_GOODBYE 18
+#define TWICE 19
+#define GROWS 20
+#define SLOW 21
 
 namespace {
 
@@ -87,6 +90,9 @@ std::int32_t create(const lmdbench_mesh* a, const lmdbench_mesh* b, double /*cut
   _mm_setcsr(_mm_getcsr() | 0x8040);
 #elif KIND == TOO_MANY
   *needed = std::uint64_t{1} << 31;
+#elif KIND == GROWS && defined(__SSE__)
+  _mm_setcsr(_mm_getcsr() | 0x8040);
+  *needed = capacity + 1;
 #elif KIND == THROWS
   throw std::runtime_error("out of a C interface");
 #elif KIND == EXITS
@@ -117,7 +123,8 @@ std::int32_t search(void* instance, const double* X, lmdbench_contact* contacts,
   *needed = all.size();
   for (std::uint64_t i = 0; i < *needed && i < capacity; ++i) contacts[i] = all[i].second;
   if (++self.calls % 5 == 3) misbehave(contacts, capacity, needed);
-  return 0;
+  if (KIND == SLOW) ::usleep(300000);
+  return KIND == GROWS && self.calls == 9 ? 7 : 0;
 }
 
 void destroy(void* instance) {
@@ -168,7 +175,7 @@ constexpr lmdbench_method METHOD = {sizeof(lmdbench_method),
                                     extension};
 
 const lmdbench_method* get(std::uint32_t index) {
-  return index == 0 ? &METHOD : nullptr;
+  return index == 0 || (KIND == TWICE && index == 1) ? &METHOD : nullptr;
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Result files as pandas frames. Names are those of the file (results/README.md), which the figures' readers share: a
 dataset (N) is the column of its name, one of (N, 3) the columns name_x, name_y, name_z. `frame.attrs["units"]` has the unit
-of every column; a value that was not measured is NaN."""
+of every column but the axes of a sweep, whose names end in it; a value that was not measured is NaN."""
 
 from __future__ import annotations
 
@@ -87,6 +87,7 @@ class ResultFrames:
         columns = {name: item for name, item in _datasets(group["lmds"]).items() if name != "frame_offset"}
         table = _frame(columns, int(offsets[-1]))
         table.insert(0, "frame", np.repeat(np.arange(offsets.size - 1), np.diff(offsets)))
+        table.attrs["units"]["frame"] = "1"
         return table
 
     def summary(self) -> pd.DataFrame:
