@@ -81,6 +81,7 @@ TEST_F(InitTest, BuiltMeshesOfTheManifestHaveTheUnitOfTheirFile) {
       {"sources",
        {{"s",
          {{"package", "some-package"},
+          {"archive", "p.tar.gz"},
           {"path", "p.off"},
           {"sha256", std::string(64, '0')},
           {"licence", "none"},
