@@ -101,13 +101,15 @@ class RealResultTest(SharedScratch):
 
     @classmethod
     def special(cls):
-        """Closed loops without and with torque, real time, LMDs without an index, meshes that deform, several that move, instances."""
+        """Closed loops without and with torque, real time, LMDs without an index, meshes that deform, several that move, instances, a plugin."""
         return [cls.committed("wall", "--set", "/frames=20", "--set", "/probes/truth/stride_frames=5"),
                 cls.committed("wall-6dof", "--set", "/frames=20"),
                 cls.committed("shapes", "--driver", "realtime", "--set", "/frames=100"),
                 cls.committed("shapes", "--set", "/frames=20", "--set", '/methods=[{"name": "certified"}]',
                               "--set", "/force/aggregation=shared"),
                 cls.committed("deforming", "--set", "/frames=20"),
+                cls.committed("shapes", "--set", "/frames=20", "--set", '/methods=[{"name": "good"}]', "--plugin",
+                              os.path.join(os.path.dirname(PROGRAM), "tests", "plugin", "good.so")),
                 cls.committed("shapes", "--set", "/frames=20", "--set", '/methods=[{"name": "certified"}]',
                               "--set", '/fixed/0/instances={"rule": "grid", "counts": [2, 1, 1], "spacing_diagonals": 1.5}'),
                 cls.committed("movers", "--set", "/frames=60", "--set", "/driver/repetitions=2",
