@@ -24,9 +24,9 @@ MEDIAN, LATE, ERROR = "frame, median [us]", "99 % [us]", "force error, RMS [% of
 ZERO = 1.3  # errors of 0 are drawn here
 # Series of the sweep: colour, name, and offset of the name from the last point.
 METHODS = {"original": (style.VERMILLION, "original", (-4, 7)), "improved": (style.BLUE, "improved", (4, 6)),
-           "nearest": (style.PURPLE, "nearest: FCL, one contact", (-8, 7)), "certified": (style.GREEN, "certified, coherent", (-86, 8)),
+           "nearest": (style.PURPLE, "nearest: FCL, one contact", (-24, 7)), "certified": (style.GREEN, "certified, coherent", (-86, 8)),
            "certified-cold": (style.GREEN, "certified, from scratch in every frame", (-4, 8))}
-NUMBERED = (1, 20, 100, 1000)  # frames between searches that get a label
+NUMBERED = (1, 20, 100, 500)  # frames between searches that get a label
 
 
 def points(page, scene):
