@@ -177,7 +177,7 @@ if [[ ${1:-} == --one ]]; then # a process of its own, so that a command that fa
 fi
 commit="$(git rev-parse --short HEAD)"
 git diff --quiet HEAD -- . ':!results/release' || die 2 "the checkout has changes that no commit names (remedy: commit or stash them)"
-build_preset release # a table is filed under the commit of its program
+[[ -n ${LMDBENCH_BUILD:-} ]] || build_preset release # a table is filed under the commit of its program
 OUT="results/reference-runs/$commit"
 mkdir -p "$OUT"
 (($#)) || set -- "${PARTS[@]}"

@@ -142,7 +142,7 @@ void check_files(const Experiment& experiment, const std::vector<MeshNote>& note
   const auto check = [&](const std::string& role, const std::string& hash, const fs::path& file,
                          const std::string& changed) {
     const auto found = std::ranges::find(roles, role);
-    if (found != roles.end() && hashes[static_cast<std::size_t>(found - roles.begin())] != hash)
+    if (found == roles.end() || hashes[static_cast<std::size_t>(found - roles.begin())] != hash)
       throw InputError(file.string(), "", changed + " since the run",
                        "give back the old content, or run the experiment again");
   };
