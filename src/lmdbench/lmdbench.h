@@ -40,8 +40,9 @@ class PreparedMesh {
   /// Takes a mesh from memory: indices of features count its vertices and triangles. Corners that
   /// are to be one vertex must be one. Vertices without triangles count for nothing: in `mesh()`
   /// they stand at a corner of a triangle. Planes are put back as above. A triangle without area
-  /// that closes a T junction is flipped with the one beside it, and both keep their numbers:
-  /// `mesh()` has their corners, `findings()` how many there were.
+  /// that closes a T junction is flipped with the one beside it, one with a side as short as
+  /// rounding collapses, and all keep their numbers: `mesh()` has their corners, `findings()` how
+  /// many there were.
   /// @param name of the mesh, for messages
   /// @throws InputError naming the vertex or triangle: no triangle, an index out of range, a
   ///         coordinate that is not finite or too large, a planar tolerance that is no length, more
@@ -55,13 +56,13 @@ class PreparedMesh {
   std::vector<std::array<std::int32_t, 2>> edges() const;
 
   /// What weakens its LMDs: open borders, triangles without area, and the like, and how many were
-  /// flipped; one clause each.
+  /// collapsed and flipped; one clause each.
   std::vector<std::string> findings() const;
 
   const std::shared_ptr<const Body>& body() const { return body_; }
 
  private:
-  std::int64_t flipped_ = 0;  ///< Before `body_`, which is made with it.
+  std::string repairs_;  ///< Before `body_`, which is made with it.
   std::shared_ptr<const Body> body_;
 };
 

@@ -102,8 +102,11 @@ TEST(FlatTriangles, AreLeftWhereAFlipWouldChangeTheSurface) {
   edge_is_there.triangles.push_back({3, 6, 4});
   expect_left(edge_is_there);
   // A corner at an end of the longest side: nothing lies on the side.
-  TriangleMesh doubled = junction({0.0});
-  expect_left(doubled);
+  expect_left(junction({0.0}));
+  // Nor where it is next to it: what is cut off would be flat again.
+  TriangleMesh beside = junction({1e-8});
+  EXPECT_EQ(flip_flat_triangles(beside, 1e-7), 0);
+  EXPECT_EQ(flip_flat_triangles(beside, 1e-9), 1);
 }
 
 }  // namespace

@@ -63,6 +63,47 @@ TEST(ConvexBodies, SheetsWithTwoSidesHaveOneLmd) {
   }
 }
 
+/// Thinner than the tolerance of its planes: the walls are needles of noise, and both sides would be
+/// put into one plane with them.
+TEST(ConvexBodies, ThinPlatesOfSinglePrecisionKeepTheirRim) {
+  std::mt19937_64 random(33);
+  for (const double thickness : {1e-7, 2e-7, 4e-7, 1e-6}) {
+    for (int k = 0; k < 20; ++k) {
+      const Pose whole = testing::pose_of_seed(random());
+      TriangleMesh mesh = testing::rounded_to_floats(testing::placed(make_box({1, 1, thickness}), whole));
+      flatten(mesh);
+      const Scene scene = testing::make_scene(make_box({0.1, 0.1, 0.1}), std::move(mesh), 1.5);
+      for (int i = 0; i < 5; ++i) {
+        Pose beside = testing::pose_of_seed(random());
+        beside.translation = Vec3(0.8 + 0.2 * uniform(random), uniform(random) - 0.2, 0.1 * uniform(random));
+        // Rounding leaves walls that are not convex: LMDs beside each other.
+        const double apart = nearest_pair(*scene.moving, scene.fixed_body(), whole * beside).distance;
+        for (const char* method : {"exhaustive", "certified"}) {
+          const LmdSet lmds = lmds_at(*make_method(method, scene), whole * beside);
+          ASSERT_FALSE(lmds.empty()) << method << ", " << thickness << ", " << k << ", " << i;
+          EXPECT_NEAR(minimum_distance(lmds), apart, 1e-9)
+              << method << ", " << thickness << ", " << k << ", " << i;
+          EXPECT_LT(lmds.back().distance, apart + 1e-6)
+              << method << ", " << thickness << ", " << k << ", " << i;
+        }
+      }
+    }
+  }
+}
+
+/// Triangles with two corners at one vertex, on every edge.
+TEST(ConvexBodies, WithCollapsedTrianglesHaveOneLmd) {
+  std::mt19937_64 random(34);
+  TriangleMesh box = make_box({1, 1, 1});
+  for (const auto& [a, b] : build_surface(box).adjacency.edges) box.triangles.push_back({a, b, a});
+  const Scene scene = testing::make_scene(make_box({0.1, 0.1, 0.1}), std::move(box), 2.0);
+  for (int i = 0; i < 100; ++i) {
+    Pose beside = testing::pose_of_seed(random());
+    beside.translation = testing::random_direction(random) * (1.0 + 0.2 * uniform(random));
+    EXPECT_EQ(lmds_at(scene, beside), 1U) << i;
+  }
+}
+
 /// The diagonal of a face meets a corner of one side alone; a needle closes the gap.
 TriangleMesh with_needle(TriangleMesh mesh, double share) {
   const auto corners = mesh.triangles.front();

@@ -17,6 +17,7 @@ using testing::make_body;
 using testing::placed;
 using testing::pose_of_seed;
 using testing::rounded_to_floats;
+using testing::stepped;
 using testing::uniform;
 
 /// Two meshes as designed, and as in files: each turned and rounded on its own.
@@ -79,6 +80,22 @@ TEST(RoundedFaces, APlateOnAPlateIsOneContact) {
     const Pair pair(make_box(Vec3(1.0, 1.0, 0.1), cells), make_box(Vec3(1.3, 0.9, 0.1), 4), 0.02, seed);
     expect_same_contacts(pair, on_top(random, 0.101), 1.0, 1);
   }
+}
+
+/// As exact results of Boolean operations have them in doubles: the edge over such a wall is in no
+/// valley, whichever way the floor beside it leads.
+TEST(RoundedFaces, AWallOfRoundingIsNoMinimum) {
+  TriangleMesh moving = stepped(1e-16);
+  flatten(moving);
+  const Scene scene =
+      testing::make_scene(std::move(moving), placed(make_box({8, 8, 1}), {Vec3(0, 0, -1.5)}), 4.0);
+  for (const char* method : {"exhaustive", "certified"})
+    for (const double tilt : {0.1, 0.3})
+      EXPECT_EQ(
+          answer(method, scene, {Vec3::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(tilt, Vec3::UnitY()))})
+              .size(),
+          1U)
+          << method << ", " << tilt;
 }
 
 TEST(RoundedFaces, TwoFeetAreTwoContacts) {

@@ -38,4 +38,23 @@ inline TriangleMesh rounded_to_floats(TriangleMesh mesh) {
   return turned_to_floats(std::move(mesh), Eigen::Quaterniond::Identity());
 }
 
+/// A prism over a level floor that goes down to the right behind a wall of some height.
+inline TriangleMesh stepped(double wall) {
+  const std::vector<std::array<double, 2>> outline{{-1, 0.5},    {0, 0.5}, {0, 0.5 - wall},
+                                                   {0.5, -0.25}, {0.5, 1}, {-1, 1}};
+  TriangleMesh mesh;
+  for (const double y : {0.0, 1.0})
+    for (const auto& [x, z] : outline) mesh.vertices.emplace_back(x, y, z);
+  for (std::int32_t i = 0; i < 6; ++i) {
+    const std::int32_t j = (i + 1) % 6;
+    mesh.triangles.push_back({i, i + 6, j + 6});
+    mesh.triangles.push_back({i, j + 6, j});
+  }
+  for (std::int32_t i = 0; i < 4; ++i) {
+    mesh.triangles.push_back({4, i == 0 ? 5 : i - 1, i});
+    mesh.triangles.push_back({10, i + 6, i == 0 ? 11 : i + 5});
+  }
+  return mesh;
+}
+
 }  // namespace lmdbench::testing

@@ -5,7 +5,6 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/geometry/tolerance.h>
-#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/length_unit.h>
 #include <lmdbench/mesh/orientation_choice.h>
 #include <lmdbench/mesh/placement.h>
@@ -54,8 +53,8 @@ std::shared_ptr<const Body> load(const std::string& name, const QueryOptions& op
   if (parse_orientation(options.orient, "", "--orient") == OrientationChoice::OUTWARD)
     spdlog::info("{}: {}", name, to_text(orient_outward(mesh)));
   FlatteningReport flattening = flatten(mesh, tolerance);
-  if (flattening.flipped_triangles > 0)
-    spdlog::info("{}: {}", name, flipped_text(flattening.flipped_triangles));
+  if (const std::string repairs = repairs_text(flattening); !repairs.empty())
+    spdlog::info("{}: {}", name, repairs);
   flattening.tolerance *= metres;
   flattening.largest_move *= metres;
   if (flattening.moved_vertices > 0) spdlog::info("{}: {}", name, to_text(flattening));

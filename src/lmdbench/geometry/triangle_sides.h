@@ -19,4 +19,10 @@ inline double longest_side(const Triangle& t) {
   return std::sqrt(squared_longest_side(t));
 }
 
+/// A triangle's least altitude, on its longest side [m]; 0 where the corners are at one point.
+inline double least_altitude(const Triangle& t) {
+  const double longest = longest_side(t);
+  return longest > 0.0 ? (t[1] - t[0]).cross(t[2] - t[0]).norm() / longest : 0.0;
+}
+
 }  // namespace lmdbench

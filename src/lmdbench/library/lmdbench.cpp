@@ -7,7 +7,6 @@
 #include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/lmd/scene.h>
 #include <lmdbench/lmdbench.h>
-#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
@@ -27,9 +26,9 @@ namespace lmdbench {
 namespace {
 
 std::shared_ptr<const Body> prepare(TriangleMesh mesh, const std::string& planar_tolerance,
-                                    const std::string& name, std::int64_t& flipped) {
+                                    const std::string& name, std::string& repairs) {
   const PlanarTolerance tolerance = parse_planar_tolerance(planar_tolerance, name, "planar_tolerance");
-  flipped = flatten(mesh, tolerance).flipped_triangles;
+  repairs = repairs_text(flatten(mesh, tolerance));
   return std::make_shared<const Body>(name, build_surface(std::move(mesh)));
 }
 
@@ -104,11 +103,11 @@ nlohmann::json options_of(const std::string& method, const std::string& text) {
 }  // namespace
 
 PreparedMesh::PreparedMesh(const std::filesystem::path& file, const std::string& planar_tolerance)
-    : body_(prepare(import_mesh(file), planar_tolerance, file.string(), flipped_)) {}
+    : body_(prepare(import_mesh(file), planar_tolerance, file.string(), repairs_)) {}
 
 PreparedMesh::PreparedMesh(TriangleMesh mesh, const std::string& planar_tolerance, const std::string& name) {
   check_mesh_in_memory(mesh, name);
-  body_ = prepare(std::move(mesh), planar_tolerance, name, flipped_);
+  body_ = prepare(std::move(mesh), planar_tolerance, name, repairs_);
 }
 
 const TriangleMesh& PreparedMesh::mesh() const {
@@ -121,7 +120,7 @@ std::vector<std::array<std::int32_t, 2>> PreparedMesh::edges() const {
 
 std::vector<std::string> PreparedMesh::findings() const {
   std::vector<std::string> all = lmdbench::findings(check_mesh(body_->surface()));
-  if (flipped_ > 0) all.push_back(flipped_text(flipped_));
+  if (!repairs_.empty()) all.push_back(repairs_);
   return all;
 }
 

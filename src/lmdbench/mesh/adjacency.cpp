@@ -25,15 +25,22 @@ void for_each_vertex(const std::array<std::int32_t, 3>& corners, Visit visit) {
   if (corners[2] != corners[0] && corners[2] != corners[1]) visit(corners[2]);
 }
 
-CsrRows triangles_of_vertices(const TriangleMesh& mesh) {
+/// @param is_listed whether a triangle is in the row of a vertex of its own
+template <class IsListed>
+CsrRows triangles_of_vertices(const TriangleMesh& mesh, IsListed is_listed) {
   std::vector<std::int32_t> offsets(mesh.vertices.size() + 1, 0);
-  for (const auto& corners : mesh.triangles)
-    for_each_vertex(corners, [&](std::int32_t vertex) { ++offsets[static_cast<std::size_t>(vertex) + 1]; });
+  const auto for_each_listed = [&](std::size_t t, auto visit) {
+    for_each_vertex(mesh.triangles[t], [&](std::int32_t vertex) {
+      if (is_listed(t, vertex)) visit(vertex);
+    });
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for_each_listed(t, [&](std::int32_t vertex) { ++offsets[static_cast<std::size_t>(vertex) + 1]; });
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   std::vector<std::int32_t> items(static_cast<std::size_t>(offsets.back()));
   std::vector<std::int32_t> next(offsets.begin(), offsets.end() - 1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for_each_vertex(mesh.triangles[t], [&](std::int32_t vertex) {
+    for_each_listed(t, [&](std::int32_t vertex) {
       items[static_cast<std::size_t>(next[static_cast<std::size_t>(vertex)]++)] =
           static_cast<std::int32_t>(t);
     });
@@ -81,7 +88,7 @@ Adjacency build_adjacency(const TriangleMesh& mesh) {
                                        }),
                    "an index that import did not check");
   Adjacency adjacency;
-  adjacency.vertex_triangles = triangles_of_vertices(mesh);
+  adjacency.vertex_triangles = triangles_of_vertices(mesh, [](std::size_t, std::int32_t) { return true; });
   const std::vector<SideIndex> first = first_sides(mesh, adjacency.vertex_triangles);
   std::size_t edge_count = 0;
   for (std::size_t side = 0; side < first.size(); ++side) edge_count += first[side] == side ? 1 : 0;
@@ -100,15 +107,31 @@ Adjacency build_adjacency(const TriangleMesh& mesh) {
       } else {
         edge = adjacency.triangle_edges[earliest / 3][earliest % 3];
       }
-      adjacency.edge_triangles.add(edge, static_cast<std::int32_t>(t));
+      if (!names_vertex_twice(mesh.triangles[t]))
+        adjacency.edge_triangles.add(edge, static_cast<std::int32_t>(t));
     }
+    if (names_vertex_twice(mesh.triangles[t])) adjacency.collapsed.push_back(static_cast<std::int32_t>(t));
   }
+  if (adjacency.collapsed.empty()) return adjacency;
+  std::vector<bool> has_others(edge_count);
+  for (std::size_t e = 0; e < edge_count; ++e)
+    has_others[e] = !adjacency.edge_triangles[static_cast<std::int32_t>(e)].empty();
+  for (const std::int32_t t : adjacency.collapsed)
+    for (const std::int32_t edge : adjacency.triangle_edges[static_cast<std::size_t>(t)])
+      if (!has_others[static_cast<std::size_t>(edge)]) adjacency.edge_triangles.add(edge, t);
+  std::vector<bool> has_whole(mesh.vertices.size());
+  for (const auto& corners : mesh.triangles)
+    if (!names_vertex_twice(corners))
+      for (const std::int32_t vertex : corners) has_whole[static_cast<std::size_t>(vertex)] = true;
+  adjacency.vertex_triangles = triangles_of_vertices(mesh, [&](std::size_t t, std::int32_t vertex) {
+    return !names_vertex_twice(mesh.triangles[t]) || !has_whole[static_cast<std::size_t>(vertex)];
+  });
   return adjacency;
 }
 
 std::size_t Adjacency::bytes() const {
   return edges.size() * sizeof(edges[0]) + triangle_edges.size() * sizeof(triangle_edges[0]) +
-         edge_triangles.bytes() + vertex_triangles.bytes();
+         edge_triangles.bytes() + vertex_triangles.bytes() + collapsed.size() * sizeof(collapsed[0]);
 }
 
 }  // namespace lmdbench

@@ -60,13 +60,22 @@ class EdgeTriangles {
   std::vector<std::vector<std::int32_t>> rows_;
 };
 
-/// Neighbourhood of a mesh. Non-manifold edges keep all their triangles.
+/// Whether a triangle has collapsed: it occupies no surface.
+inline bool names_vertex_twice(const std::array<std::int32_t, 3>& corners) {
+  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+}
+
+/// Neighbourhood of a mesh. Non-manifold edges keep all their triangles. Collapsed triangles are no
+/// neighbours: they are in rows of edges and vertices that no other triangle has. (Rounding the
+/// slivers of a Boolean operation to single precision leaves such triangles in many STL files; with
+/// them closed meshes would have edges of three triangles.)
 struct Adjacency {
   std::vector<std::array<std::int32_t, 2>> edges;  ///< #E by 2, vertex indices, smaller one first.
   std::vector<std::array<std::int32_t, 3>>
-      triangle_edges;            ///< #T by 3; side k joins corners k and (k + 1) % 3.
-  EdgeTriangles edge_triangles;  ///< #E lists of triangles, ascending.
-  CsrRows vertex_triangles;      ///< #V rows of triangles, ascending.
+      triangle_edges;                   ///< #T by 3; side k joins corners k and (k + 1) % 3.
+  EdgeTriangles edge_triangles;         ///< #E lists of triangles, ascending.
+  CsrRows vertex_triangles;             ///< #V rows of triangles, ascending.
+  std::vector<std::int32_t> collapsed;  ///< Triangles that name a vertex twice, ascending.
 
   std::int32_t edge_count() const { return static_cast<std::int32_t>(edges.size()); }
   /// Memory that all of this takes.
@@ -74,7 +83,7 @@ struct Adjacency {
 };
 
 /// Edges are numbered in the order of their first triangle side: numbers depend on the mesh alone.
-/// A triangle that names a vertex twice has a side {v, v} and is once in each of its rows.
+/// A collapsed triangle has a side {v, v} and is once in each row that it is in.
 /// @pre every index is within the vertex array (import checks it)
 Adjacency build_adjacency(const TriangleMesh& mesh);
 

@@ -67,7 +67,8 @@ std::int64_t flip_flat_triangles(TriangleMesh& mesh, double height) {
     const std::int32_t a = own[longest], b = own[(longest + 1) % 3], c = own[(longest + 2) % 3];
     const Vec3 along = position(b) - position(a), to_corner = position(c) - position(a);
     const double place = to_corner.dot(along);
-    if (!(place > 0.0 && place < along.squaredNorm())) return std::nullopt;
+    const double end = height * along.norm();
+    if (!(place > end && place < along.squaredNorm() - end)) return std::nullopt;
     if (sides(a, b).size() != 1 || sides(b, a).size() != 1) return std::nullopt;
     const std::size_t beyond = sides(b, a).front();
     Corners& other = mesh.triangles[beyond];

@@ -105,6 +105,13 @@ void derive_flags(Surface& surface) {
     const std::size_t triangles = adjacency.edge_triangles[static_cast<std::int32_t>(e)].size();
     if (triangles == 2 && balance[e] == 0) continue;
     const bool boundary = triangles == 1;
+    // A collapsed triangle leaves the corners of others as they are.
+    const auto first =
+        static_cast<std::size_t>(adjacency.edge_triangles[static_cast<std::int32_t>(e)].front());
+    if (names_vertex_twice(surface.mesh.triangles[first])) {
+      surface.edge_is_boundary[e] = true;
+      continue;
+    }
     (boundary ? surface.edge_is_boundary : surface.edge_is_non_manifold)[e] = true;
     for (const std::int32_t vertex : adjacency.edges[e])
       (boundary ? surface.vertex_is_boundary

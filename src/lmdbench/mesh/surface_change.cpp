@@ -89,6 +89,8 @@ const SurfaceChange& SurfaceMover::move(std::span<const Vec3> vertices, Surface&
   for (const std::int32_t v : change.moved)
     for (const std::int32_t t : surface.adjacency.vertex_triangles[v])
       if (is_new(change.face_marks, t)) change.faces.push_back(t);
+  for (const std::int32_t t : surface.adjacency.collapsed)  // in no vertex's row
+    if (!change.moved.empty() && is_new(change.face_marks, t)) change.faces.push_back(t);
   normals_.resize(change.faces.size());
   parallel_ranges(change.faces.size(), FACES_A_TASK, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) normals_[i] = triangle_normal(mesh.triangle(change.faces[i]));

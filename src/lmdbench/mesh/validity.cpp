@@ -62,8 +62,16 @@ std::int64_t count_duplicates(const TriangleMesh& mesh) {
   return std::distance(std::unique(sorted.begin(), sorted.end()), sorted.end());
 }
 
+/// Whether no triangle has an edge but collapsed ones.
+bool is_of_collapsed(const Surface& surface, std::int32_t edge) {
+  return names_vertex_twice(
+      surface.mesh.triangles[static_cast<std::size_t>(surface.adjacency.edge_triangles[edge].front())]);
+}
+
 void count_defects(const Surface& surface, ValidityReport& report) {
-  report.boundary_edges = count_true(surface.edge_is_boundary);
+  for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e)
+    if (surface.edge_is_boundary[static_cast<std::size_t>(e)] && !is_of_collapsed(surface, e))
+      ++report.boundary_edges;
   report.boundary_loops = count_boundary_loops(surface);
   for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e) {
     if (!surface.edge_is_non_manifold[static_cast<std::size_t>(e)]) continue;
@@ -120,8 +128,13 @@ ValidityReport check_mesh(const Surface& surface) {
   count_defects(surface, report);
   measure(surface, report);
   if (report.closed && report.manifold && report.consistently_oriented) {
-    // Euler and Poincare: V - E + T = 2 (components - genus).
-    const std::int64_t euler = report.vertices - report.unused_vertices - report.edges + report.triangles;
+    // Euler and Poincare: V - E + T = 2 (components - genus), without collapsed triangles.
+    std::int64_t edges = 0;
+    for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e)
+      if (!is_of_collapsed(surface, e)) ++edges;
+    const auto collapsed = static_cast<std::int64_t>(surface.adjacency.collapsed.size());
+    const std::int64_t euler =
+        report.vertices - report.unused_vertices - edges + report.triangles - collapsed;
     report.genus = report.components - euler / 2;
   }
   return report;

@@ -3,7 +3,6 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/experiment/rules.h>
 #include <lmdbench/force/aggregation.h>
-#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/prepare/scene_warnings.h>
 
 #include <fmt/format.h>
@@ -71,7 +70,7 @@ std::vector<std::string> mesh_warnings(const Experiment& experiment, const std::
     if (earlier_body(experiment, i)) continue;
     if (differs_from_manifest(note, experiment.mesh_folder))
       warn("its file is not the manifest's: results on it do not compare frame by frame with others'");
-    if (note.flattening.flipped_triangles > 0) warn(flipped_text(note.flattening.flipped_triangles));
+    if (const std::string repairs = repairs_text(note.flattening); !repairs.empty()) warn(repairs);
     if (note.flattening.moved_vertices > 0) warn(to_text(note.flattening));
     if (note.orientation.choice == OrientationChoice::OUTWARD) warn(to_text(note.orientation));
     for (const std::string& finding : findings(note.report)) warn(finding);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/geometry/tolerance.h>
+#include <lmdbench/geometry/triangle_sides.h>
 #include <lmdbench/mesh/flat_triangles.h>
+#include <lmdbench/mesh/short_edges.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/shape/flat_regions.h>
 #include <lmdbench/shape/flatten.h>
@@ -36,6 +38,10 @@ constexpr double LEAST_ALTITUDE = 16.0;
 /// Planes at a smaller angle (a sine) are one if their points agree.
 constexpr double SAME_PLANE_SINE = 1e-3;
 
+/// Edges that are no longer, of the mesh's diagonal, are rounding: bringing their ends together
+/// leaves flat what is flat to FLATNESS.
+constexpr double SHORT_EDGE = FLATNESS / 16.0;
+
 /// A plane for vertices.
 struct Constraint {
   Plane plane;
@@ -43,6 +49,20 @@ struct Constraint {
   bool stands = true;
   bool was_joined = false;  ///< Of several faces.
 };
+
+Plane fitted(const TriangleMesh& mesh, const std::vector<std::int32_t>& vertices, const Vec3& towards) {
+  std::vector<Vec3> points;
+  for (const std::int32_t v : vertices) points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+  return fit_plane(points, towards).plane;
+}
+
+/// Whether vertices are within the tolerance of a plane.
+bool all_near(const TriangleMesh& mesh, const std::vector<std::int32_t>& vertices, const Plane& plane,
+              double tolerance) {
+  return std::ranges::all_of(vertices, [&](std::int32_t v) {
+    return std::abs(plane.height(mesh.vertices[static_cast<std::size_t>(v)])) <= tolerance;
+  });
+}
 
 /// Pairs of neighbouring triangles, in all and between 1 and BAND tolerances from one plane.
 struct Coplanarity {
@@ -87,9 +107,46 @@ Coplanarity coplanarity(const Surface& surface, double tolerance) {
   return result;
 }
 
+/// Whether two faces are the sides of a plate so thin that its walls may face any way.
+bool are_sides_of_plate(const TriangleMesh& mesh, const PlanarFace& a, const PlanarFace& b,
+                        double tolerance) {
+  return a.plane.normal.dot(b.plane.normal) < 0.0 &&
+         a.plane.normal.cross(b.plane.normal).norm() <= SAME_PLANE_SINE &&
+         all_near(mesh, a.vertices, b.plane, LEAST_ORIENTED_ALTITUDE * tolerance);
+}
+
+/// Takes the walls of such plates out of both sides, which would be put into one plane with them.
+void take_out_walls(const Surface& surface, double tolerance, std::vector<PlanarFace>& faces) {
+  const TriangleMesh& mesh = surface.mesh;
+  std::vector<std::vector<std::size_t>> at_vertex(mesh.vertices.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f].vertices.size() > 3)
+      for (const std::int32_t v : faces[f].vertices) at_vertex[static_cast<std::size_t>(v)].push_back(f);
+  std::vector<bool> is_thin(faces.size(), false);
+  for (const auto& around : at_vertex)
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (std::size_t j = i + 1; j < around.size(); ++j)
+        if (!(is_thin[around[i]] && is_thin[around[j]]) &&
+            are_sides_of_plate(mesh, faces[around[i]], faces[around[j]], tolerance))
+          is_thin[around[i]] = is_thin[around[j]] = true;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    PlanarFace& face = faces[f];
+    if (!is_thin[f]) continue;
+    face.vertices.clear();
+    for (const std::int32_t t : face.triangles)
+      if (least_altitude(mesh.triangle(t)) > LEAST_ORIENTED_ALTITUDE * tolerance)
+        face.vertices.insert(face.vertices.end(), mesh.triangles[static_cast<std::size_t>(t)].begin(),
+                             mesh.triangles[static_cast<std::size_t>(t)].end());
+    std::ranges::sort(face.vertices);
+    face.vertices.erase(std::unique(face.vertices.begin(), face.vertices.end()), face.vertices.end());
+    if (face.vertices.size() > 3) face.plane = fitted(mesh, face.vertices, face.plane.normal);
+  }
+}
+
 /// Faces of four and more vertices that chance does not explain.
 std::vector<Constraint> find_constraints(const Surface& surface, double tolerance) {
   std::vector<PlanarFace> faces = planar_faces(surface, tolerance);
+  take_out_walls(surface, tolerance, faces);
   std::map<std::size_t, std::size_t> count_of_spare;  // faces by vertices more than three
   for (const PlanarFace& face : faces)
     if (face.vertices.size() > 3) ++count_of_spare[face.vertices.size() - 3];
@@ -133,7 +190,8 @@ class CoplanarJoining {
         for (std::size_t j = i + 1; j < at_vertex.size(); ++j)
           try_to_join(root(at_vertex[i]), root(at_vertex[j]));
     for (Constraint& constraint : constraints_) {
-      if (constraint.was_joined) constraint.plane = plane_of(constraint.vertices, constraint.plane.normal);
+      if (constraint.was_joined)
+        constraint.plane = fitted(mesh_, constraint.vertices, constraint.plane.normal);
       std::sort(constraint.vertices.begin(), constraint.vertices.end());
       constraint.vertices.erase(std::unique(constraint.vertices.begin(), constraint.vertices.end()),
                                 constraint.vertices.end());
@@ -163,9 +221,9 @@ class CoplanarJoining {
     if (SMALL_PART * small.vertices.size() > large.vertices.size()) {
       std::vector<std::int32_t> both = large.vertices;
       both.insert(both.end(), small.vertices.begin(), small.vertices.end());
-      plane = plane_of(both, first.plane.normal);
-      if (!all_near(both, plane)) return;
-    } else if (!all_near(small.vertices, plane)) {
+      plane = fitted(mesh_, both, first.plane.normal);
+      if (!all_near(mesh_, both, plane, tolerance_)) return;
+    } else if (!all_near(mesh_, small.vertices, plane, tolerance_)) {
       return;
     }
     if (!first_is_large) first.vertices.swap(second.vertices);
@@ -174,17 +232,6 @@ class CoplanarJoining {
     first.was_joined = true;
     second = Constraint{second.plane, {}, false};
     into_[std::max(a, b)] = std::min(a, b);
-  }
-
-  Plane plane_of(const std::vector<std::int32_t>& vertices, const Vec3& towards) const {
-    std::vector<Vec3> points;
-    for (const std::int32_t v : vertices) points.push_back(mesh_.vertices[static_cast<std::size_t>(v)]);
-    return fit_plane(points, towards).plane;
-  }
-  bool all_near(const std::vector<std::int32_t>& vertices, const Plane& plane) const {
-    return std::ranges::all_of(vertices, [&](std::int32_t v) {
-      return std::abs(plane.height(mesh_.vertices[static_cast<std::size_t>(v)])) <= tolerance_;
-    });
   }
 
   const TriangleMesh& mesh_;
@@ -286,6 +333,8 @@ FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice, bool
   FlatteningReport report;
   report.tolerance = choice.length(mesh);
   if (flips)
+    report.collapsed_triangles = collapse_short_edges(mesh, SHORT_EDGE * bounding_box_diagonal(mesh));
+  if (flips)
     report.flipped_triangles =
         flip_flat_triangles(mesh, std::max(report.tolerance, FLATNESS * largest_coordinate(mesh.vertices)));
   if (!(report.tolerance > 0.0)) return report;
@@ -311,6 +360,16 @@ FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice, bool
   }
   mesh.planar_tolerance = report.tolerance;
   return report;
+}
+
+std::string repairs_text(const FlatteningReport& report) {
+  std::string text;
+  if (report.collapsed_triangles > 0)
+    text = fmt::format("{} triangle{} with a side as short as rounding collapsed", report.collapsed_triangles,
+                       report.collapsed_triangles == 1 ? "" : "s");
+  if (report.flipped_triangles > 0)
+    text += (text.empty() ? "" : "; ") + flipped_text(report.flipped_triangles);
+  return text;
 }
 
 std::string to_text(const FlatteningReport& report) {

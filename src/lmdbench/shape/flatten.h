@@ -12,11 +12,12 @@ namespace lmdbench {
 
 /// Result of `flatten`, in the mesh's unit.
 struct FlatteningReport {
-  std::int64_t flipped_triangles = 0;  ///< Close a T junction (flat_triangles.h).
-  double tolerance = 0.0;              ///< Allowed distance from planes; 0: not checked.
-  std::int64_t planes = 0;             ///< Planes that vertices were put back into.
-  std::int64_t moved_vertices = 0;     ///< Vertices whose coordinates changed.
-  double largest_move = 0.0;           ///< Distance that the farthest of them went.
+  std::int64_t collapsed_triangles = 0;  ///< Had a side as short as rounding (short_edges.h).
+  std::int64_t flipped_triangles = 0;    ///< Close a T junction (flat_triangles.h).
+  double tolerance = 0.0;                ///< Allowed distance from planes; 0: not checked.
+  std::int64_t planes = 0;               ///< Planes that vertices were put back into.
+  std::int64_t moved_vertices = 0;       ///< Vertices whose coordinates changed.
+  double largest_move = 0.0;             ///< Distance that the farthest of them went.
 };
 
 /// Puts the vertices of a rounded mesh's planar faces back into their planes: those on two planes
@@ -35,15 +36,21 @@ struct FlatteningReport {
 /// a bit. Where vertices moved, `mesh.planar_tolerance` becomes the tolerance. The result does not
 /// depend on the numbering of vertices, triangles and corners.
 ///
-/// Before, triangles that are flat to the tolerance, or to the rounding of doubles, and close a T
-/// junction are flipped: rounding turns some of them over.
-/// @param flips false for a mesh that deforms: its triangles gain area
+/// The walls of a plate that is thinner than a few tolerances are noise: each of its sides gets a
+/// plane of its own.
+///
+/// Before, edges as short as the rounding of doubles are collapsed, and triangles that are flat to
+/// the tolerance, or to the rounding of doubles, and close a T junction are flipped: rounding turns
+/// some of them over.
+/// @param flips false for a mesh that deforms: its triangles gain area. Collapses none then, either
 FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice = {}, bool flips = true);
 
 /// Most that a vertex may move, in tolerances.
 inline constexpr double LARGEST_MOVE = 4.0;
 
-/// A clause for people.
+/// What was done to triangles, a clause for people; empty if nothing.
+std::string repairs_text(const FlatteningReport& report);
+/// What was done to vertices, a clause for people.
 std::string to_text(const FlatteningReport& report);
 
 }  // namespace lmdbench

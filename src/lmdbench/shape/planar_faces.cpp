@@ -15,8 +15,6 @@ namespace {
 
 /// A triangle whose least altitude is under this many tolerances starts no face.
 constexpr double LEAST_SEED_ALTITUDE = 16.0;
-/// A triangle whose least altitude is under this many tolerances may face any way: noise.
-constexpr double LEAST_ORIENTED_ALTITUDE = 4.0;
 /// Points of a face at which its plane is fitted first; before, one triangle gives it.
 constexpr std::size_t FIRST_FIT = 6;
 
@@ -26,9 +24,7 @@ struct TriangleSize {
 };
 
 TriangleSize size_of(const Triangle& t) {
-  const double double_area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
-  const double longest = longest_side(t);
-  return {0.5 * double_area, longest > 0.0 ? double_area / longest : 0.0};
+  return {0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(), least_altitude(t)};
 }
 
 /// Standard deviation of a triangle's corners along its altitude.

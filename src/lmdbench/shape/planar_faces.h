@@ -18,6 +18,9 @@ struct PlanarFace {
   std::vector<std::int32_t> vertices;   ///< All of theirs, ascending.
 };
 
+/// A triangle whose least altitude is under this many tolerances may face any way: noise.
+inline constexpr double LEAST_ORIENTED_ALTITUDE = 4.0;
+
 /// Divides a mesh into its planar faces: every triangle with area is in one, most alone. A face's
 /// vertices are within `tolerance` [m] of its plane; its triangles have the same outer side.
 ///

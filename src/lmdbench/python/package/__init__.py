@@ -64,7 +64,8 @@ class Mesh:
     Mesh(vertices, triangles)   (V, 3) metres and (T, 3) whole numbers, counter-clockwise seen from outside; features count
                                 the caller's rows. Vertices without triangles count for nothing, and stand at a corner of
                                 one. A triangle without area that closes a T junction is flipped with the
-                                one beside it, and both keep their rows: see `triangles` and `findings`.
+                                one beside it, one with a side as short as rounding collapses, and all keep their
+                                rows: see `triangles` and `findings`.
 
     planar_tolerance: how far vertices of one plane may have left it, and are put back: "auto" (what single-precision
     coordinates leave), "off", metres ("1e-6") or a share of the diagonal ("0.0001%"). name: for messages.
