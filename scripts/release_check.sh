@@ -33,6 +33,10 @@ ABOVE_METHODS=(catalogue/'*_file.*' cli comparison drivers library lmdbench.h ma
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
 FUZZ_MINUTES="${LMDBENCH_FUZZ_MINUTES:-360}"
+for number in POSES SEED FUZZ_MINUTES; do
+  [[ ${!number} =~ ^[1-9][0-9]{0,14}$ ]] ||
+    die 2 "LMDBENCH_$number is '${!number}' (remedy: a whole number above 0, such as 1000000)"
+done
 MACHINE="$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1), $JOBS cores"
 
 # in_fresh_clone COMMAND: for a newcomer, whose folder only has committed files; with the pages of

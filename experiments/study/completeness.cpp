@@ -77,9 +77,11 @@ class Complaints {
     };
   }
   std::size_t count() const { return count_; }
+  void add_searches(std::size_t searches) { searches_ += searches; }
+  std::size_t searches() const { return searches_; }
 
  private:
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, searches_ = 0;
 };
 
 void choose_pair(const std::string& pair, experiments::SceneChoice& scene) {
@@ -123,6 +125,7 @@ nlohmann::json run_pair(const std::string& pair, CompletenessChoice choice, Comp
                           {"fixed_triangles", fixed_triangles}};
   for (const CutoffResult& result : results) {
     const Judgement all = sum_of(result.judgements);
+    complaints.add_searches(all.poses);
     entry["cutoffs"].push_back({{"cutoff", result.cutoff}, {"variants", variants_json(result.judgements)}});
     fmt::print("| {} on {} | {:g} | {} | {} |\n", choice.scene.moving, choice.scene.fixed,
                100.0 * result.cutoff, all.poses, numbers(all));
@@ -141,6 +144,7 @@ nlohmann::json run_path(const std::string& experiment, const CompletenessChoice&
   fmt::print("| {} | coherent against exhaustive | {} | {} |\n", result.experiment,
              result.against_truth.poses, numbers(result.against_truth));
   std::fflush(stdout);
+  complaints.add_searches(result.against_scratch.poses + result.against_truth.poses);
   nlohmann::json entry = {{"experiment", result.experiment},
                           {"frames", result.frames},
                           {"coherent_against_scratch", to_json(result.against_scratch)},
@@ -157,6 +161,7 @@ nlohmann::json run_far_scenes(const CompletenessChoice& choice, Complaints& comp
   for (const FarResult& result :
        judge_far_scenes(choice.seed, choice.far_poses, complaints.about("far from the origin"))) {
     const Judgement all = sum_of(result.judgements);
+    complaints.add_searches(all.poses);
     rows.push_back({{"smallest_size_offsets", std::pow(10.0, result.decade)},
                     {"variants", variants_json(result.judgements)}});
     fmt::print("| 1e{} to 1e{} | {} | {} |\n", result.decade, result.decade + 1, all.poses, numbers(all));
@@ -175,6 +180,7 @@ nlohmann::json run_flat_scenes(const CompletenessChoice& choice, Complaints& com
          {parts::Coordinates::EXACT, parts::Coordinates::TURNED, parts::Coordinates::ROUNDED}) {
       const PartsResult result = judge_parts(study, kind.name, coordinates, complaints.about("flat"));
       const Judgement all = sum_of(result.judgements);
+      complaints.add_searches(all.poses);
       rows.push_back({{"pair", result.kind},
                       {"coordinates", name_of(coordinates)},
                       {"variants", variants_json(result.judgements)}});
@@ -197,6 +203,7 @@ nlohmann::json run_rounded_plates(const CompletenessChoice& choice, Complaints& 
         1e6 * median(plates.seconds), 1e6 * quantile(plates.seconds, 0.99), 1e6 * largest,
         std::count_if(plates.seconds.begin(), plates.seconds.end(), [](double s) { return s > 1e-3; }));
     std::fflush(stdout);
+    complaints.add_searches(plates.poses);
     rows.push_back({{"triangles", plates.triangles},
                     {"poses", plates.poses},
                     {"one_lmd", plates.one_lmd},
@@ -277,6 +284,7 @@ int judge_completeness(const CompletenessChoice& choice) {
     report["paths"].push_back(run_path(experiment, choice, complaints));
     save();
   }
+  fmt::print("\n{} of {} searches are wrong.\n", complaints.count(), complaints.searches());
   if (complaints.count() == 0) return static_cast<int>(ExitCode::DONE);
   fmt::print(stderr,
              "error: {} searches are wrong; to see one again, put its line into a file and give that "

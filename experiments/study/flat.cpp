@@ -252,8 +252,8 @@ void lmdbench::study::add_flat(CLI::App& app, Run& chosen) {
   const auto times = std::make_shared<flat_parts::PartsTimes>();
   command->add_option("--meshes", choice->meshes, "Folder of built meshes");
   command->add_option("--bunny", choice->bunny, "Mesh that is grazed for comparison");
-  command->add_option("--poses", choice->poses, "Poses a row")->check(CLI::PositiveNumber);
-  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->check(CLI::PositiveNumber);
+  command->add_option("--poses", choice->poses, "Poses a row");
+  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose");
   command->add_option("--seed", choice->seed, "Seed of the poses");
   command->add_flag("--no-fcl", *no_fcl, "Leave FCL out");
   command->add_option("--json", choice->json, "Also write every pose's numbers to this file");

@@ -38,7 +38,7 @@ std::vector<Motion> motions_of(const HostileChoice& choice) {
 }
 
 int judge_all(const HostileChoice& choice) {
-  std::size_t told = 0, searches = 0, wrong = 0;
+  std::size_t told = 0, searches = 0, wrong = 0, nearest_asked = 0;
   const Complain complain = [&](const std::string& what) {
     if (++told <= choice.complaints) fmt::print(stderr, "wrong: {}\n", what);
   };
@@ -63,11 +63,13 @@ int judge_all(const HostileChoice& choice) {
                  judgement.duplicates, judgement.wrong_poses);
       searches += judgement.poses;
       wrong += judgement.wrong_poses;
+      nearest_asked += judgement.nearest_asked;
     }
     std::fflush(stdout);
     experiments::write_report(choice.json, report);
   }
-  fmt::print("\n{} of {} searches are wrong.\n", wrong, searches);
+  fmt::print("\n{} of {} searches are wrong; of {} the nearest pair had to be an LMD.\n", wrong, searches,
+             nearest_asked);
   return static_cast<int>(wrong == 0 ? ExitCode::DONE : ExitCode::CHECK_FAILED);
 }
 

@@ -88,12 +88,15 @@ int judge_all(const MetamorphicChoice& choice) {
   fmt::print(
       "| change | pairs | different | other bits | ties | certified differs |\n|---|---|---|---|---|---|\n");
   bool wrong = false;
+  std::size_t changed = 0, ties = 0;
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const MetamorphicCounts& count = counts[c];
     fmt::print("| {} | {} | {} | {}{} | {} | {} |\n", chosen[c]->name, count.pairs, count.different,
                count.bits_different, chosen[c]->keeps_bits ? "" : " (expected)", count.ties,
                count.incomplete);
     wrong = wrong || count.is_wrong(*chosen[c]);
+    changed += count.pairs;
+    ties += count.ties;
     report["changes"].push_back({{"name", chosen[c]->name},
                                  {"pairs", count.pairs},
                                  {"different", count.different},
@@ -102,8 +105,8 @@ int judge_all(const MetamorphicChoice& choice) {
                                  {"certified_different", count.incomplete}});
   }
   experiments::write_report(choice.json, report);
-  fmt::print("\n{} of {} pairs are answered otherwise after some change.\n", wrong_pairs,
-             choice.poses * choice.parts.size());
+  fmt::print("\n{} of {} pairs are answered otherwise after some change; {} of {} changes are ties.\n",
+             wrong_pairs, choice.poses * choice.parts.size(), ties, changed);
   return static_cast<int>(wrong ? ExitCode::CHECK_FAILED : ExitCode::DONE);
 }
 

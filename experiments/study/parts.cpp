@@ -34,6 +34,7 @@ nlohmann::json to_json(const PartsResult& result) {
           {"wrong_poses", result.wrong_poses},
           {"poses_that_show_cut", result.poses_that_show_cut},
           {"of_these_at_a_border", result.of_these_at_a_border},
+          {"poses_beside_an_intersection", result.poses_beside},
           {"variants", variants_json(result.judgements)}};
 }
 
@@ -51,7 +52,7 @@ void print_row(const PartsResult& result) {
 }
 
 int judge_all(const PartsChoiceOfUser& choice) {
-  std::size_t told = 0, poses = 0, wrong = 0, show_cut = 0, at_border = 0;
+  std::size_t told = 0, poses = 0, wrong = 0, nearest = 0, recut = 0, show_cut = 0, at_border = 0, beside = 0;
   const Complain complain = [&](const std::string& what) {
     if (++told <= choice.complaints) fmt::print(stderr, "{}\n", what);
   };
@@ -75,12 +76,19 @@ int judge_all(const PartsChoiceOfUser& choice) {
       wrong += result.wrong_poses;
       show_cut += result.poses_that_show_cut;
       at_border += result.of_these_at_a_border;
+      beside += result.poses_beside;
+      nearest += result.judgements.front().nearest_asked;
+      if (coordinates == parts::Coordinates::RECUT) recut += result.poses;
     }
   }
   fmt::print(
-      "\n{} of {} poses are wrong; at {} the cut into triangles shows, {} of them where a move as small as "
-      "the tolerance changes the set.\n",
-      wrong, poses, show_cut, at_border);
+      "\nAt {} poses LMDs within roundings of an intersection were left out of what the cut may not change; "
+      "at {} the nearest pair had to be an LMD.\n",
+      beside, nearest);
+  fmt::print(
+      "{} of {} poses are wrong; at {} of {} the cut into triangles shows, {} at a border of the "
+      "tolerance.\n",
+      wrong, poses, show_cut, recut, at_border);
   return static_cast<int>(wrong + (show_cut - at_border) == 0 ? ExitCode::DONE : ExitCode::CHECK_FAILED);
 }
 

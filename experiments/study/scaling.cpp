@@ -333,8 +333,8 @@ void lmdbench::study::add_scaling(CLI::App& app, Run& chosen) {
   command->add_option("--diagonal", choice->diagonal, "Diagonal of all meshes [m]");
   command->add_option("--gap", choice->gap, "Gap, share of the diagonal");
   command->add_option("--cutoff", choice->cutoff, "Cutoff, share of the diagonal");
-  command->add_option("--poses", choice->poses, "Random poses a point")->check(CLI::PositiveNumber);
-  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose")->check(CLI::PositiveNumber);
+  command->add_option("--poses", choice->poses, "Random poses a point");
+  command->add_option("--repetitions", choice->repetitions, "Timed runs a pose");
   command
       ->add_option("--passes", choice->passes,
                    "Passes over all points, of which each pose's least time counts")

@@ -51,7 +51,7 @@ void add_stability(CLI::App& app, Run& chosen) {
                       "frames between searches, and until their sets arrive");
   command->add_option("--seeds", choice->grid.seeds, "tremors of the hand a point")
       ->check(CLI::PositiveNumber);
-  command->add_option("--frames", choice->grid.frames, "frames a run")->check(CLI::PositiveNumber);
+  command->add_option("--frames", choice->grid.frames, "frames a run");
   command->callback([choice, &chosen] { chosen.work = [choice] { return map(*choice); }; });
 }
 

@@ -342,7 +342,7 @@ void add_worlds(CLI::App& app, Run& chosen) {
   command->add_option("--instances", choice->cost.counts, "Sizes of the worlds; ratios are to the first")
       ->check(CLI::PositiveNumber);
   command->add_option("--spacing", choice->cost.spacing, "Of the instances, in diagonals");
-  command->add_option("--frames", choice->frames, "Of the path")->check(CLI::PositiveNumber);
+  command->add_option("--frames", choice->frames, "Of the path");
   command->add_option("--world-frames", choice->world_frames, "Of each world whose completeness is judged")
       ->check(CLI::PositiveNumber);
   command->add_option("--world", choice->worlds, "Only this one is judged, by its name in the table");

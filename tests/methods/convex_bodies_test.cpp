@@ -63,8 +63,8 @@ TEST(ConvexBodies, SheetsWithTwoSidesHaveOneLmd) {
   }
 }
 
-/// Thinner than the tolerance of its planes: the walls are needles of noise, and both sides would be
-/// put into one plane with them.
+/// Thinner than the tolerance of its planes: the walls are needles of noise, and both sides would
+/// be put into one plane with them.
 TEST(ConvexBodies, ThinPlatesOfSinglePrecisionKeepTheirRim) {
   std::mt19937_64 random(33);
   for (const double thickness : {1e-7, 2e-7, 4e-7, 1e-6}) {

@@ -30,6 +30,20 @@ const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
   return nearest;
 }
 
+bool same_direction(const Lmd& a, const Lmd& b) {
+  return a.direction == b.direction || (a.direction.hasNaN() && b.direction.hasNaN());
+}
+
+/// @param lmd its features and body exist
+bool triangles_hold_features(const Lmd& lmd, const Scene& scene) {
+  const auto holds = [](const Body& body, std::int32_t triangle, const FeatureId& feature) {
+    const auto& triangles = body.surface().incident_triangles(feature);
+    return std::ranges::find(triangles, triangle) != triangles.end();
+  };
+  return holds(*scene.moving, lmd.triangle_moving, lmd.feature_moving) &&
+         holds(*scene.fixed[static_cast<std::size_t>(lmd.fixed_body)], lmd.triangle_fixed, lmd.feature_fixed);
+}
+
 /// LMDs beyond the first of a feature pair. Intersecting LMDs are counted apart: their feature pair
 /// may carry an LMD elsewhere.
 std::size_t duplicates(const LmdSet& set) {
@@ -46,13 +60,14 @@ Judgement& Judgement::operator+=(const Judgement& other) {
   duplicates += other.duplicates;
   poses += other.poses;
   wrong_poses += other.wrong_poses;
+  nearest_asked += other.nearest_asked;
   worst_distance_difference = std::max(worst_distance_difference, other.worst_distance_difference);
   worst_point_difference = std::max(worst_point_difference, other.worst_point_difference);
   return *this;
 }
 
 Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene, double diagonal,
-                std::string& objection) {
+                std::string& objection, const std::optional<NearestLmd>& nearest) {
   Judgement result;
   result.poses = 1;
   result.same = agreement(truth, reported, Match::SAME_FEATURES, scene);
@@ -77,9 +92,23 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
           point <= (lmd.intersecting ? CROSSING_TOLERANCE : POSITION_TOLERANCE)))
       object(fmt::format("{}: distance off by {:.2g}, points by {:.2g} of the diagonal", describe(lmd),
                          distance, point));
+    if (!same_direction(lmd, *same))
+      object(fmt::format("{}: another direction, {:.17g} {:.17g} {:.17g}", describe(lmd), same->direction.x(),
+                         same->direction.y(), same->direction.z()));
+    if (!triangles_hold_features(*same, scene))
+      object(fmt::format("{}: triangles {} and {} do not hold it", describe(lmd), same->triangle_moving,
+                         same->triangle_fixed));
   }
   for (const Lmd& lmd : reported)
     if (find_pair(truth, lmd) == nullptr) object("reported " + describe(lmd) + ", which is none");
+  if (!std::ranges::is_sorted(reported, lmd_less)) object("not in order");
+  if (nearest) {
+    result.nearest_asked = 1;
+    const double least = minimum_distance(reported);
+    if (!(std::abs(least - nearest->distance) <= nearest->tolerance))
+      object(fmt::format("the nearest pair, at {:.17g} m, is no LMD; least distance {:.17g} m",
+                         nearest->distance, least));
+  }
   result.wrong_poses = objection.empty() ? 0 : 1;
   return result;
 }

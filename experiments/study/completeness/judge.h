@@ -5,6 +5,9 @@
 #include <lmdbench/lmd/agreement.h>
 #include <lmdbench/lmd/scene.h>
 
+#include <study/completeness/nearest_lmd.h>
+
+#include <optional>
 #include <string>
 
 namespace lmdbench::completeness {
@@ -25,16 +28,19 @@ struct Judgement {
   std::size_t duplicates = 0;
   std::size_t poses = 0;
   std::size_t wrong_poses = 0;             ///< Poses with anything wrong.
+  std::size_t nearest_asked = 0;           ///< Poses whose nearest pair has to be an LMD.
   double worst_distance_difference = 0.0;  ///< Over matched pairs, relative to the diagonal.
   double worst_point_difference = 0.0;     ///< The same for the points on both meshes.
 
   Judgement& operator+=(const Judgement& other);
 };
 
-/// Compares one pose's sets.
+/// Compares one pose's sets: distances and points to the tolerances, directions to the bit, as an LMD
+/// is a function of its contacts. Named triangles must hold the features.
 /// @param diagonal  scale of the differences [m]
 /// @param objection receives the differences with features and distances; empty when there are none
+/// @param nearest   what the least distance has to be; nothing where it is not asked
 Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene, double diagonal,
-                std::string& objection);
+                std::string& objection, const std::optional<NearestLmd>& nearest = {});
 
 }  // namespace lmdbench::completeness

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// Changes of two meshes and a pose that keep the distances and the number of the LMDs.
+/// Changes of two meshes and a pose that keep the LMDs.
 namespace lmdbench::completeness {
 
 /// Two meshes and a pose of the moving one.
@@ -35,11 +35,21 @@ ScenePair scaled_by(double factor, ScenePair pair);
 /// The set of a method.
 LmdSet set_of(const char* method, const ScenePair& pair);
 
+/// What brings LMDs of a changed pair back.
+struct Undo {
+  double scale = 1.0;    ///< Factor of all lengths by the change.
+  RigidTransform X;      ///< From the changed world, divided by the scale, to that before.
+  bool swapped = false;  ///< The meshes are exchanged.
+  /// Another of several equally near points may be the first in the moving mesh's frame.
+  bool orders_anew = false;
+};
+LmdSet undone(const LmdSet& changed, const Undo& undo);
+
 struct Change {
   const char* name;
   bool keeps_bits;  ///< Operations round alike: distances keep their bits.
-  /// @param scale receives the factor of all lengths
-  ScenePair (*make)(const ScenePair& pair, experiments::Random& random, double& scale);
+  /// @param undo receives what the change was
+  ScenePair (*make)(const ScenePair& pair, experiments::Random& random, Undo& undo);
 };
 std::span<const Change> metamorphic_changes();
 
@@ -53,16 +63,19 @@ struct Difference {
   bool tie = false;
 };
 
-/// Allowed differences of distances.
+/// Allowed differences of distances, on which those of places and directions depend.
 struct Widths {
-  double rounding;  ///< Of every distance [m].
-  double known;     ///< In addition where two edges or faces are in contact [m].
+  double rounding;     ///< Of every distance [m].
+  double known;        ///< In addition where two edges or faces are in contact [m].
+  double coordinates;  ///< Of both meshes [m].
 };
 
+/// Compares kinds of features, distances, places and directions.
 /// @param pair its set is `a`
-/// @param b set of the changed pair; its lengths are `scale` times those of `a`
-Difference compare(const ScenePair& pair, const LmdSet& a, const LmdSet& b, double scale,
-                   const Widths& widths);
+/// @param b set of the changed pair, undone
+/// @param orders_anew whether LMDs of points that moved square to their direction are a tie
+Difference compare(const ScenePair& pair, const LmdSet& a, const LmdSet& b, const Widths& widths,
+                   bool orders_anew = false);
 
 /// Sums over many pairs.
 struct MetamorphicCounts {

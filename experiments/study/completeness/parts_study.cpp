@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/contact_tolerance.h>
+
 #include <fmt/format.h>
 #include <study/completeness/metamorphic.h>
 #include <study/completeness/parts_study.h>
@@ -14,6 +16,10 @@ namespace {
 
 /// Of the scale; the tolerance of the definition.
 constexpr double SAME = 1e-9;
+/// Of the scale: some roundings of the definition, within which an LMD may belong to what intersects.
+constexpr double BESIDE = 8.0 * CONTACT_ROUNDING;
+/// Directions of one contact differ by no more: the largest tilt of exact meshes, once for each.
+constexpr double SAME_DIRECTION = 2.0 * TILT_PER_TOLERANCE * LEAST_TOLERANCE;
 
 std::string upper_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -33,17 +39,25 @@ std::string contacts_text(const LmdSet& lmds) {
 
 }  // namespace
 
-bool same_contacts(const LmdSet& a, const LmdSet& b, double scale) {
+bool same_contacts(const LmdSet& a, const LmdSet& b, double scale, bool* beside) {
   const auto intersects = [](const Lmd& lmd) { return lmd.intersecting; };
-  if (std::any_of(a.begin(), a.end(), intersects) || std::any_of(b.begin(), b.end(), intersects)) return true;
-  LmdSet left = b;
-  for (const Lmd& lmd : a) {
+  const bool is_beside = std::ranges::any_of(a, intersects) || std::ranges::any_of(b, intersects);
+  LmdSet wanted = a, left = b;
+  for (LmdSet* set : {&wanted, &left}) {
+    std::erase_if(*set, intersects);
+    if (is_beside &&
+        std::erase_if(*set, [&](const Lmd& lmd) { return lmd.distance <= BESIDE * scale; }) > 0 &&
+        beside != nullptr)
+      *beside = true;
+  }
+  for (const Lmd& lmd : wanted) {
     const auto partner = std::find_if(left.begin(), left.end(), [&](const Lmd& other) {
       return lmd.feature_moving.kind == other.feature_moving.kind &&
              lmd.feature_fixed.kind == other.feature_fixed.kind &&
              std::abs(lmd.distance - other.distance) <= SAME * scale &&
              (lmd.point_moving - other.point_moving).norm() <= SAME * scale &&
-             (lmd.point_fixed - other.point_fixed).norm() <= SAME * scale;
+             (lmd.point_fixed - other.point_fixed).norm() <= SAME * scale &&
+             (lmd.direction - other.direction).norm() <= SAME_DIRECTION;
     });
     if (partner == left.end()) return false;
     left.erase(partner);
@@ -90,11 +104,12 @@ std::string test_line(const parts::PartsChoice& choice, const Pose& X_WM) {
 
 PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts::Coordinates coordinates,
                         const Complain& complain) {
-  PartsResult result{kind, coordinates, 0, 0, 0, std::vector<Judgement>(variants().size()), 0, 0};
+  PartsResult result{kind, coordinates, 0, 0, 0, std::vector<Judgement>(variants().size())};
   for (std::size_t index = 0; index * parts::POSES_A_SCENE < study.poses; ++index) {
     parts::PartsChoice choice{kind, coordinates, study.seed, index, study.family};
     const parts::PartsScene scene = make_parts_scene(choice);
     const auto exhaustive = make_method("exhaustive", scene.scene);
+    const NearestLmds nearest(scene.scene, true);
     std::vector<std::unique_ptr<Method>> methods;
     for (const Variant& variant : variants()) methods.push_back(variant.make(scene.scene));
     std::optional<parts::PartsScene> uncut;
@@ -106,13 +121,14 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
     const auto of_uncut = uncut ? make_method("exhaustive", uncut->scene) : nullptr;
     for (const Pose& pose : scene.poses) {
       const LmdSet truth = lmds_at(*exhaustive, pose);
+      const auto nearest_lmd = nearest.at(pose, scene.scene.cutoff);
       ++result.poses;
       result.true_lmds += truth.size();
       std::string wrong, first;
       for (std::size_t v = 0; v < methods.size(); ++v) {
         std::string objection;
         result.judgements[v] +=
-            judge(truth, lmds_at(*methods[v], pose), scene.scene, scene.diagonal, objection);
+            judge(truth, lmds_at(*methods[v], pose), scene.scene, scene.diagonal, objection, nearest_lmd);
         if (objection.empty()) continue;
         wrong +=
             (wrong.empty() ? "" : ", ") + variants()[v].label + (objection == first ? "" : ": " + objection);
@@ -122,7 +138,10 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
       result.wrong_poses += !wrong.empty();
       if (!uncut) continue;
       const LmdSet truth_of_uncut = lmds_at(*of_uncut, pose);
-      if (same_contacts(truth, truth_of_uncut, scene.diagonal)) continue;
+      bool beside = false;
+      const bool same = same_contacts(truth, truth_of_uncut, scene.diagonal, &beside);
+      result.poses_beside += beside;
+      if (same) continue;
       const bool at_border = is_at_a_border(uncut->scene, pose, scene.diagonal) ||
                              is_at_a_border(scene.scene, pose, scene.diagonal);
       ++result.poses_that_show_cut;

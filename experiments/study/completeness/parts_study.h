@@ -29,13 +29,15 @@ struct PartsResult {
   std::size_t wrong_poses = 0;           ///< Poses at which some variant is wrong.
   std::vector<Judgement> judgements;     ///< In the order of `variants()`.
   std::size_t poses_that_show_cut = 0;   ///< Only RECUT: `exhaustive` differs from EXACT.
+  std::size_t poses_beside = 0;          ///< Only RECUT: `same_contacts` leaves LMDs out.
   std::size_t of_these_at_a_border = 0;  ///< `is_at_a_border` of either cut.
 };
 
-/// Whether two sets have the same contacts: the same kinds of features, distances and places in any
-/// order. Always true with intersecting triangles: the cut decides what their intersection consists
-/// of, and whether a neighbour just clear of it belongs to it.
-bool same_contacts(const LmdSet& a, const LmdSet& b, double scale);
+/// Whether two sets have the same contacts: the same kinds of features, distances, directions and
+/// places in any order. Without what intersects: the cut decides what that consists of. Beside
+/// intersections without LMDs of a few roundings, too: they may belong to them.
+/// @param beside receives whether such LMDs were left out
+bool same_contacts(const LmdSet& a, const LmdSet& b, double scale, bool* beside = nullptr);
 
 /// Whether the set at a pose is another one (by twice the places of `same_contacts`) after one of
 /// twelve moves and turns as small as the tolerance of the definition, along and about each axis:

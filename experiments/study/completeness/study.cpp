@@ -52,6 +52,7 @@ std::vector<CutoffResult> judge_poses(Scene scene, double diagonal, const std::v
     methods.emplace_back();
     for (const Variant& variant : variants()) methods.back().push_back(variant.make(scene));
   }
+  const NearestLmds nearest(scene);
   LmdSet all_truth, reported;
   WorkCounters counters;
   std::string objection;
@@ -59,9 +60,10 @@ std::vector<CutoffResult> judge_poses(Scene scene, double diagonal, const std::v
     exhaustive->search(poses[i], all_truth, counters);
     for (std::size_t c = 0; c < cutoffs.size(); ++c) {
       const LmdSet truth = within_cutoff(all_truth, cutoffs[c] * diagonal);
+      const auto nearest_lmd = nearest.at(poses[i], cutoffs[c] * diagonal);
       for (std::size_t v = 0; v < variants().size(); ++v) {
         methods[c][v]->search(poses[i], reported, counters);
-        results[c].judgements[v] += judge(truth, reported, scene, diagonal, objection);
+        results[c].judgements[v] += judge(truth, reported, scene, diagonal, objection, nearest_lmd);
         if (!objection.empty())
           complain(fmt::format("pose {}, cutoff {:g} % of the diagonal, {}: {}\n{}", i, 100.0 * cutoffs[c],
                                variants()[v].label, objection, pose_line(poses[i], static_cast<double>(i))));
@@ -90,6 +92,7 @@ nlohmann::json to_json(const Judgement& judgement) {
           {"wrong_poses", judgement.wrong_poses},
           {"set", experiments::error_json(judgement.same, judgement.neighbours)},
           {"duplicates", judgement.duplicates},
+          {"nearest_asked", judgement.nearest_asked},
           {"worst_distance_difference_diagonals", judgement.worst_distance_difference},
           {"worst_point_difference_diagonals", judgement.worst_point_difference}};
 }

@@ -31,6 +31,16 @@ def baseline_of(scene):
     return json.loads(text_of(baseline.baseline_file(baseline.FOLDER, scene)))
 
 
+class ReleaseCheckTest(unittest.TestCase):
+    def test_what_is_no_positive_whole_number_is_refused(self):
+        """A study of '1e6' poses was one of none, and passed."""
+        for name in ("LMDBENCH_POSES", "LMDBENCH_SEED", "LMDBENCH_FUZZ_MINUTES"):
+            for value, code in (("1e6", 2), ("0", 2), ("-5", 2), ("08", 2), ("x", 2), ("7", 0), ("", 0)):
+                done = call(SCRIPTS / "release_check.sh", "--list", env=os.environ | {name: value})
+                self.assertEqual(done.returncode, code, (name, value))
+                self.assertEqual(name in done.stderr and "remedy" in done.stderr, code == 2, done.stderr)
+
+
 class BaselineTest(Scratch):
     def test_baselines_are_not_stale(self):
         self.printed(baseline.main, "check", "--without-times", "--program", PROGRAM)

@@ -31,8 +31,12 @@ bool is_well_formed(const Lmd& lmd, const Scene& scene) {
     return false;
   if (!(lmd.distance >= 0.0)) return false;
   if (lmd.distance > 0.0 && !is_unit(lmd.direction)) return false;
-  const double coordinates =
+  double coordinates =
       std::max(lmd.point_moving.cwiseAbs().maxCoeff(), lmd.point_fixed.cwiseAbs().maxCoeff());
+  // Points next to the origin carry the rounding of their triangles.
+  for (const Triangle& t :
+       {moving.mesh.triangle(lmd.triangle_moving), fixed.mesh.triangle(lmd.triangle_fixed)})
+    for (const Vec3& corner : t) coordinates = std::max(coordinates, corner.cwiseAbs().maxCoeff());
   const double apart = (lmd.point_fixed - lmd.point_moving).norm();
   return std::abs(apart - lmd.distance) <= DISTANCE_ROUNDING * (coordinates + lmd.distance);
 }

@@ -23,7 +23,10 @@ class JudgeTest : public ::testing::Test {
       lmd.point_moving = Vec3::Zero();
       lmd.point_fixed = Vec3(lmd.distance, 0.0, 0.0);
       lmd.feature_moving = {FeatureKind::VERTEX, vertex};
+      lmd.direction = Vec3::UnitX();
       lmd.feature_fixed = {FeatureKind::VERTEX, 0};
+      lmd.triangle_moving = body->surface().incident_triangles(lmd.feature_moving)[0];
+      lmd.triangle_fixed = body->surface().incident_triangles(lmd.feature_fixed)[0];
       truth_.push_back(lmd);
     }
   }
@@ -100,6 +103,58 @@ TEST_F(JudgeTest, MeasuresDistancesAndPoints) {
   reported = truth_;
   reported[1].distance = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(judge_now(reported).wrong_poses, 1u) << "NaN";
+}
+
+TEST_F(JudgeTest, ComparesDirections) {
+  for (const Vec3& wrong : {Vec3(-Vec3::UnitX()), Vec3(Vec3::UnitY()),
+                            Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()))}) {
+    LmdSet reported = truth_;
+    reported[1].direction = wrong;
+    EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
+    EXPECT_THAT(objection_, HasSubstr("another direction"));
+  }
+  truth_[1].direction.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(judge_now(truth_).wrong_poses, 0u) << objection_;
+}
+
+TEST_F(JudgeTest, WantsTrianglesThatHoldTheFeaturesAndTheOrder) {
+  LmdSet reported = truth_;
+  reported[2].triangle_fixed = -1;
+  EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
+  EXPECT_THAT(objection_, HasSubstr("do not hold it"));
+  reported = truth_;
+  std::swap(reported[0], reported[1]);
+  EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
+}
+
+TEST_F(JudgeTest, WantsTheNearestPair) {
+  const auto wrong = [&](double nearest) {
+    return judge(truth_, truth_, scene_, 1.0, objection_, NearestLmd{nearest, 1e-9}).wrong_poses;
+  };
+  EXPECT_EQ(wrong(0.1 + 1e-10), 0u) << objection_;
+  EXPECT_EQ(wrong(0.1 + 1e-8), 1u);
+  EXPECT_EQ(wrong(0.1 - 1e-8), 1u);
+  truth_.clear();
+  EXPECT_EQ(wrong(0.1), 1u);
+}
+
+TEST_F(JudgeTest, AsksForTheNearestPairOfSolidsThatAreApart) {
+  const NearestLmds nearest(scene_);
+  const auto at = [&](double x, double cutoff) { return nearest.at({Vec3(x, 0, 0)}, cutoff); };
+  ASSERT_TRUE(at(1.25, 0.5));
+  EXPECT_DOUBLE_EQ(at(1.25, 0.5)->distance, 0.25);
+  EXPECT_FALSE(at(1.25, 0.2)) << "beyond the cutoff";
+  EXPECT_FALSE(at(0.5, 0.5)) << "they intersect";
+  const auto body_of = [](const TriangleMesh& mesh) {
+    return std::make_shared<const Body>("box", build_surface(mesh));
+  };
+  const Scene inside{body_of(make_box(Vec3::Constant(0.5))), scene_.fixed, 1.0};
+  EXPECT_FALSE(NearestLmds(inside).at({}, 1.0));
+  EXPECT_TRUE(NearestLmds(inside).at({Vec3(1.0, 0, 0)}, 1.0));
+  TriangleMesh open = make_box(Vec3::Constant(0.5));
+  open.triangles.pop_back();
+  const Scene sheet{body_of(open), scene_.fixed, 1.0};
+  EXPECT_FALSE(NearestLmds(sheet).at({Vec3(1.0, 0, 0)}, 1.0));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <study/completeness/metamorphic.h>
 #include <support/parts/parts_scenes.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 /// A change that keeps shapes and places keeps the answer.
@@ -21,22 +23,25 @@ LmdSet at_distances(std::initializer_list<double> distances, FeatureKind kind = 
   for (const double distance : distances) {
     lmds.emplace_back();
     lmds.back().distance = distance;
+    lmds.back().point_moving = Vec3::Zero();
+    lmds.back().point_fixed = lmds.back().distance * Vec3::UnitX();
+    lmds.back().direction = Vec3::UnitX();
     lmds.back().feature_moving.kind = lmds.back().feature_fixed.kind = kind;
   }
   return lmds;
 }
 
-Difference difference(const LmdSet& a, const LmdSet& b, double scale = 1.0) {
+Difference difference(const LmdSet& a, const LmdSet& b) {
   ScenePair pair;
   pair.cutoff = CUTOFF;
   pair.open = {0.75};
-  return compare(pair, a, b, scale, {ROUNDING, KNOWN});
+  return compare(pair, a, b, {ROUNDING, KNOWN, 1.0});
 }
 
 TEST(Metamorphic, ComparesCountsAndDistances) {
   const LmdSet set = at_distances({0.25, 0.5});
   EXPECT_FALSE(difference(set, set).differs);
-  EXPECT_FALSE(difference(set, at_distances({0.5, 1.0}), 2.0).bits_differ);
+  EXPECT_FALSE(difference(set, undone(at_distances({0.5, 1.0}), {2.0, {}, false})).bits_differ);
   EXPECT_TRUE(difference(set, at_distances({0.25})).differs);
   EXPECT_TRUE(difference(set, at_distances({0.25, 0.5 + 1e-12})).differs);
   EXPECT_FALSE(difference(set, at_distances({0.25, 0.5 + 1e-15})).differs);
@@ -45,6 +50,65 @@ TEST(Metamorphic, ComparesCountsAndDistances) {
   const LmdSet faces = at_distances({0.5}, FeatureKind::FACE);
   EXPECT_FALSE(difference(faces, at_distances({0.5 + 1e-10}, FeatureKind::FACE)).differs);
   EXPECT_TRUE(difference(faces, at_distances({0.5 + 1e-8}, FeatureKind::FACE)).differs);
+}
+
+TEST(Metamorphic, ComparesKindsDirectionsAndPlaces) {
+  const auto wrong = [](const auto& change, double distance) {
+    const LmdSet set = at_distances({distance, 0.75, 0.9});
+    LmdSet changed = set;
+    change(changed[0]);
+    return difference(set, changed).differs;
+  };
+  for (const double distance : {0.0, 0.25}) {
+    SCOPED_TRACE(distance);
+    EXPECT_FALSE(wrong([](Lmd&) {}, distance));
+    EXPECT_TRUE(wrong([](Lmd& lmd) { lmd.point_fixed.y() += 0.01; }, distance));
+    EXPECT_TRUE(wrong([](Lmd& lmd) { lmd.point_moving.z() += 1e-12; }, distance));
+    EXPECT_FALSE(wrong([](Lmd& lmd) { lmd.point_moving.z() += 1e-14; }, distance));
+    EXPECT_TRUE(wrong([](Lmd& lmd) { lmd.feature_fixed.kind = FeatureKind::EDGE; }, distance));
+    EXPECT_TRUE(wrong([](Lmd& lmd) { lmd.direction.setConstant(NAN); }, distance));
+  }
+  EXPECT_TRUE(wrong([](Lmd& lmd) { lmd.direction = -lmd.direction; }, 0.25));
+  EXPECT_TRUE(wrong([](Lmd& lmd) { lmd.direction = Vec3::UnitY(); }, 0.25));
+  // Of several equally near points another one may be the first.
+  const LmdSet one = at_distances({0.25}), middle = at_distances({0.25}, FeatureKind::FACE);
+  const auto moved = [](LmdSet set) {
+    for (Vec3* point : {&set[0].point_moving, &set[0].point_fixed}) point->y() += 0.01;
+    return set;
+  };
+  const auto after_turn = [](const LmdSet& a, const LmdSet& b) {
+    ScenePair pair;
+    pair.cutoff = CUTOFF;
+    return compare(pair, a, b, {ROUNDING, KNOWN, 1.0}, true);
+  };
+  EXPECT_TRUE(difference(one, moved(one)).differs);
+  EXPECT_TRUE(after_turn(one, moved(one)).tie);
+  EXPECT_FALSE(after_turn(one, moved(one)).differs);
+  EXPECT_TRUE(after_turn(middle, moved(middle)).differs);
+  // Of a face the direction is known at any distance.
+  LmdSet face = at_distances({0.0}, FeatureKind::FACE), turned = face;
+  turned[0].direction = Vec3(1.0, 1e-6, 0.0).normalized();
+  EXPECT_TRUE(difference(face, turned).differs);
+}
+
+/// Each change, undone, gives the same LMDs: direction and both points.
+TEST(Metamorphic, UndoesChanges) {
+  const ScenePair pair = pair_of(make_rest_scene(parts::rest_fit("U on rail"), 3, 0));
+  const LmdSet truth = set_of("exhaustive", pair);
+  ASSERT_FALSE(truth.empty());
+  experiments::Random random(3);
+  for (const Change& change : metamorphic_changes()) {
+    Undo undo;
+    const ScenePair changed = change.make(pair, random, undo);
+    const LmdSet back = undone(set_of("exhaustive", changed), undo);
+    ASSERT_EQ(back.size(), truth.size()) << change.name;
+    for (const Lmd& lmd : back)
+      EXPECT_TRUE(std::ranges::any_of(truth, [&](const Lmd& was) {
+        return (lmd.direction - was.direction).norm() < 1e-9 &&
+               (lmd.point_moving - was.point_moving).norm() < 1e-9 &&
+               (lmd.point_fixed - was.point_fixed).norm() < 1e-9;
+      })) << change.name;
+  }
 }
 
 TEST(Metamorphic, NamesWhatTouchesAndWhatLiesAtTheCutoff) {
@@ -72,8 +136,9 @@ TEST(Metamorphic, ChangesLeaveShapesAlone) {
     return check_mesh(build_surface(mesh)).volume.value_or(0.0);
   };
   for (const Change& change : metamorphic_changes()) {
-    double scale = 1.0;
-    const ScenePair changed = change.make(pair, random, scale);
+    Undo undo;
+    const ScenePair changed = change.make(pair, random, undo);
+    const double scale = undo.scale;
     const std::string name = change.name;
     const double cubed = scale * scale * scale, sum = volume(pair.moving) + volume(pair.fixed),
                  sum_after = volume(changed.moving) + volume(changed.fixed);

@@ -59,6 +59,7 @@ TEST(PartsStudy, ComparesContactsByKindAndPlace) {
     result.distance = 0.25;
     result.point_moving = Vec3(x, 0.0, 0.25);
     result.point_fixed = Vec3(x, 0.0, 0.0);
+    result.direction = -Vec3::UnitZ();
     result.feature_moving = {kind, static_cast<std::int32_t>(1000.0 * x)};
     result.feature_fixed = {FeatureKind::FACE, 7};
     return result;
@@ -71,7 +72,17 @@ TEST(PartsStudy, ComparesContactsByKindAndPlace) {
   EXPECT_FALSE(same_contacts({one}, {lmd(0.1 + 1e-8, FeatureKind::FACE)}, 1.0));
   Lmd inside = one;
   inside.intersecting = true;
-  EXPECT_TRUE(same_contacts({one, inside}, {one}, 1.0)) << "no verdict";
+  EXPECT_TRUE(same_contacts({one, inside}, {one}, 1.0)) << "what intersects depends on the cut";
+  EXPECT_FALSE(same_contacts({one, inside}, {other}, 1.0));
+  Lmd beside = other;
+  beside.distance = 5e-14;
+  bool left_out = false;
+  EXPECT_TRUE(same_contacts({one, inside, beside}, {one, inside}, 1.0, &left_out));
+  EXPECT_TRUE(left_out);
+  EXPECT_FALSE(same_contacts({one, beside}, {one}, 1.0)) << "nothing intersects";
+  Lmd turned = one;
+  turned.direction = -one.direction;
+  EXPECT_FALSE(same_contacts({one}, {turned}, 1.0));
 }
 
 /// Three by three columns; those with a set bit are solid; the middle ones are 0.25 m wide.

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/decision/contact_tolerance.h>
+#include <lmdbench/lmd/body_distance.h>
+#include <lmdbench/mesh/self_intersections.h>
+#include <lmdbench/mesh/validity.h>
+#include <lmdbench/mesh/winding_number.h>
+
+#include <study/completeness/nearest_lmd.h>
+
+#include <cmath>
+
+namespace lmdbench::completeness {
+namespace {
+
+bool is_solid(const Body& body, bool by_design) {
+  const ValidityReport report = check_mesh(body.surface());
+  return report.closed && report.outward.value_or(false) &&
+         (by_design || (report.manifold && report.duplicate_triangles == 0 &&
+                        self_intersections(body.surface().mesh).pairs == 0));
+}
+
+bool is_outside(const Vec3& point, const TriangleMesh& mesh) {
+  return std::abs(winding_number(point, mesh)) < 0.5;
+}
+
+}  // namespace
+
+NearestLmds::NearestLmds(const Scene& scene, bool by_design)
+    : scene_(scene),
+      are_solids_(scene.is_pair() && is_solid(*scene.moving, by_design) &&
+                  is_solid(scene.fixed_body(), by_design)) {}
+
+std::optional<NearestLmd> NearestLmds::at(const Pose& X_WM, double cutoff) const {
+  if (!are_solids_) return std::nullopt;
+  const Body &moving = *scene_.moving, &fixed = scene_.fixed_body();
+  const auto lengths = ContactTolerance::of(moving, fixed, RigidTransform(X_WM), cutoff);
+  const double tolerance = 2.0 * lengths.known + lengths.rounding;
+  const NearestPair nearest = nearest_pair(moving, fixed, X_WM, cutoff);
+  if (!(nearest.distance > tolerance && nearest.distance < cutoff - tolerance)) return std::nullopt;
+  const Vec3 middle_W = 0.5 * (nearest.pair.point_a + nearest.pair.point_b);
+  if (!is_outside(middle_W, fixed.surface().mesh) ||
+      !is_outside(RigidTransform(X_WM.inverse()).point(middle_W), moving.surface().mesh))
+    return std::nullopt;
+  return NearestLmd{nearest.distance, tolerance};
+}
+
+}  // namespace lmdbench::completeness
