@@ -41,6 +41,10 @@ TEST_F(WellFormed, WhatMethodsReport) {
     lmd.point_fixed = lmd.point_moving;
     lmd.direction.setConstant(std::numeric_limits<double>::quiet_NaN());
   })) << "two that touch have no direction";
+  EXPECT_TRUE(with([](Lmd& lmd) {
+    lmd.distance = 1e-11;
+    lmd.point_fixed = Vec3(0.0, 0.0, 1e-11 + 1e-17);
+  })) << "points next to the origin carry the rounding of their triangles";
 }
 
 TEST_F(WellFormed, SeesEachKindOfDamage) {
