@@ -22,7 +22,7 @@ cd "$ROOT" || exit 1
 
 mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd`, which all methods need, has a third of the time
 PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
-  shapes metamorphic rest "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
+  shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
 # What searches in generated scenes include,
 SEARCHED=(CMakeLists.txt src experiments/{judge,support,study/completeness}
   experiments/study/{CMakeLists.txt,main.cpp,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
@@ -60,7 +60,7 @@ all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; 
 commit_of() {
   local -a read=(.) unread=(':!results' ':!*.md')
   case $1 in
-  hostile | parts | solids | shapes | metamorphic | rest)
+  hostile | parts | solids | shapes | metamorphic | rest | generated)
     read=("${SEARCHED[@]}") unread+=("${ABOVE_METHODS[@]/#/:!src/lmdbench/}")
     ;;
   completeness | fuzz-* | reference)
@@ -72,7 +72,7 @@ commit_of() {
 # What a part was asked for, beside its name.
 conditions() {
   case $1 in
-  hostile | parts | solids | shapes | metamorphic | rest) printf '%s poses, seed %s' "$POSES" "$SEED" ;;
+  hostile | parts | solids | shapes | metamorphic | rest | generated) printf '%s poses, seed %s' "$POSES" "$SEED" ;;
   completeness) printf 'seed %s' "$SEED" ;;
   fuzz-*) printf '%s minutes in all' "$FUZZ_MINUTES" ;;
   esac
@@ -96,6 +96,7 @@ part() {
   solids) study parts --generator solids --poses "$(of_each 12)" ;;
   shapes) study parts --generator shapes --poses "$(of_each 72)" ;;
   metamorphic) study metamorphic --poses "$(of_each 370)" ;; # 37 kinds, ten changes of each pose
+  generated) build_preset release >&2 && build/release/lmdbench-judge generated --poses "$(of_each 4)" --seed "$SEED" ;;
   rest) build_preset release >&2 && build/release/lmdbench-judge rest --poses "$(of_each 37)" --seed "$SEED" ;;
   fuzz-lmd) scripts/fuzz.sh "$(((FUZZ_MINUTES + 2) / 3))" lmd ;;
   fuzz-*) scripts/fuzz.sh "$(((FUZZ_MINUTES * 2 / 3 + ${#READERS[@]} - 1) / ${#READERS[@]}))" "${1#*-}" ;;

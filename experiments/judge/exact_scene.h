@@ -12,7 +12,8 @@
 
 /// The definition of an LMD, judged in exact arithmetic. Inputs are the world vertices as
 /// RigidTransform rounds them, like the judged method's. All that follows is rational except the
-/// angle weights of vertex pseudo-normals (long double) and the reported numbers.
+/// angle weights of vertex pseudo-normals (long double) and the reported numbers. Shares with the
+/// methods the meshes as loaded: which triangles a feature has, borders, where more than two meet.
 namespace lmdbench::exact {
 
 /// Roundings that a distance or a difference of points may carry in double precision, in epsilons
@@ -43,19 +44,27 @@ std::vector<ExactLmd> exact_lmds(const Scene& scene, const Pose& X_WM);
 /// How a set agrees with the exact one.
 struct ExactAgreement {
   int exact = 0;          ///< Exact LMDs.
-  int uncertain = 0;      ///< Of these, decided by rounding, so not required.
-  int same_features = 0;  ///< Of these, found with the same feature pair.
-  int same_contact = 0;   ///< Found in a plateau: its distance vector and plane.
+  int certain = 0;        ///< Of these, those asked for: not decided by rounding.
+  int uncertain = 0;      ///< Of the others, those not found.
+  int same_features = 0;  ///< Found with the same feature pair.
+  int same_contact = 0;   ///< Found in a plateau: its distance vector, its plane, on both meshes.
   std::vector<ExactLmd> missed;
-  int found = 0;  ///< LMDs of the judged set at a distance above 0.
-  LmdSet untrue;  ///< Of these, those that match no exact LMD.
-  /// Of these, those whose exact LMD was matched before: parts of a plateau that tolerances split,
-  /// or several feet on one plane.
+  int found = 0;     ///< LMDs of the judged set at a distance above 0.
+  int required = 0;  ///< Of these, those without which a certain one would be missed.
+  /// Those with a point off its feature or another distance than theirs; and intersecting ones whose
+  /// triangles are apart.
+  LmdSet misplaced;
+  LmdSet untrue;     ///< Of the others, those above 0 that match no exact LMD.
+  /// Those beside another one of the same name, place or exact contact (exact LMDs that hang
+  /// together over common triangles of both meshes, where distance is convex).
+  LmdSet doubled;
+  /// Those whose exact LMD was matched before: doubled, or parts of a plateau that tolerances split.
   int sharing = 0;
 };
 
-/// @param scene  whose meshes say how far the gap of a plateau may change (DEFINITION.md)
-ExactAgreement compare_with_exact(const Scene& scene, const LmdSet& found,
+/// Matches by place: points up to the tolerance of the meshes (DEFINITION.md), or a plateau that
+/// goes on from the exact point to the named features. Where in a plateau a point lies is not asked.
+ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const LmdSet& found,
                                   const std::vector<ExactLmd>& exact);
 
 /// Whether a reported LMD meets the first-order condition up to a sine of 1e-9 and rounding: true
@@ -65,7 +74,8 @@ bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd);
 /// Whether a triangle of the moving mesh and one of a fixed mesh share a point.
 bool exactly_touching(const Scene& scene, const Pose& X_WM);
 
-/// Both features and the distance, as text for messages.
-std::string describe(const ExactLmd& lmd);
+/// Both features, the distance and the points of an ExactLmd or an Lmd, as text for messages.
+template <typename AnyLmd>
+std::string describe(const AnyLmd& lmd);
 
 }  // namespace lmdbench::exact

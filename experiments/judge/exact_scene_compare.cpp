@@ -1,79 +1,301 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <lmdbench/decision/contact_tolerance.h>
-#include <lmdbench/shape/shape_complex.h>
-
+#include <judge/exact_distance.h>
 #include <judge/exact_scene.h>
 #include <judge/exact_scene_body.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
 #include <sstream>
+#include <unordered_set>
 
 namespace lmdbench::exact {
 namespace {
 
-bool same_features(const Lmd& found, const ExactLmd& exact) {
-  return found.fixed_body == exact.fixed_body && found.feature_moving == exact.feature_moving &&
-         found.feature_fixed == exact.feature_fixed;
+using Triangles = std::vector<std::int32_t>;
+
+double rounding_at(const Vec3& p, const Vec3& q) {
+  return ROUNDINGS * std::numeric_limits<double>::epsilon() *
+         std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
 }
 
-/// Whether the exact LMD is a part of the plateau for which an LMD stands: distance vectors and
-/// planes of contact are equal up to what the definition grants to one LMD: the tolerance, and once
-/// more for each contact that is extended.
-bool same_contact(const Lmd& found, const ExactLmd& exact, const ContactTolerance& tolerance) {
-  if (found.fixed_body != exact.fixed_body) return false;
-  const Vec3 apart = found.point_moving - exact.point_moving;
-  const double coordinates =
-      std::max(exact.point_moving.cwiseAbs().maxCoeff(), exact.point_fixed.cwiseAbs().maxCoeff());
-  const double rounding = ROUNDINGS * std::numeric_limits<double>::epsilon() * coordinates;
-  const Vec3 d = exact.point_fixed - exact.point_moving;
-  const Vec3 difference = found.point_fixed - found.point_moving - d;
-  const double allowed = 3.0 * tolerance.known + tolerance.largest_tilt * exact.distance + rounding;
-  const double tilt = allowed / exact.distance;  // of the two planes of contact
-  return difference.norm() <= allowed &&
-         std::abs(apart.dot(d)) <= exact.distance * (allowed + tilt * apart.norm());
+bool same_features(const Lmd& found, const ExactLmd& exact) {
+  return found.feature_moving == exact.feature_moving && found.feature_fixed == exact.feature_fixed;
 }
+
+Triangles triangles_at(const WorldBody& body, const FeatureId& feature) {
+  const auto triangles = body.surface().incident_triangles(feature);
+  return {triangles.begin(), triangles.end()};
+}
+
+bool have_common(const Triangles& a, const Triangles& b) {
+  return std::ranges::any_of(a, [&](std::int32_t t) { return std::ranges::find(b, t) != b.end(); });
+}
+
+/// Triangles that hold a pair of features on both meshes. Two pairs on the same two triangles are of
+/// one contact, because distance is convex on these.
+struct Cells {
+  Triangles moving, fixed;
+  bool meet(const Cells& other) const {
+    return have_common(moving, other.moving) && have_common(fixed, other.fixed);
+  }
+};
+
+std::vector<std::int32_t> corners_of(const WorldBody& body, const FeatureId& feature) {
+  const FeatureCorners corners(body.surface(), feature);
+  return {corners.view().begin(), corners.view().end()};
+}
+
+/// Vertices that hang together with a feature within `slack` of the plane of contact, which may be
+/// tilted: the part of the mesh on which a plateau may lie.
+std::unordered_set<std::int32_t> level_part(const WorldBody& body, const FeatureId& feature, const Vec3& p,
+                                            const Vec3& normal, double slack, double tilt) {
+  std::unordered_set<std::int32_t> part;
+  std::vector<std::int32_t> open;
+  const auto add = [&](std::int32_t vertex) {
+    const Vec3 apart = body.vertex(vertex) - p;
+    if (std::abs(apart.dot(normal)) <= slack + tilt * apart.norm() && part.insert(vertex).second)
+      open.push_back(vertex);
+  };
+  for (const std::int32_t vertex : corners_of(body, feature)) add(vertex);
+  while (!open.empty()) {
+    const std::int32_t at = open.back();
+    open.pop_back();
+    for (const std::int32_t triangle : body.surface().adjacency.vertex_triangles[at])
+      for (const std::int32_t vertex : body.corners(triangle)) add(vertex);
+  }
+  return part;
+}
+
+/// Those of both meshes at an exact LMD; made when first asked for.
+struct LevelParts {
+  std::optional<std::unordered_set<std::int32_t>> moving, fixed;
+};
+
+/// The moving mesh and a fixed one, and what the definition grants to contacts of both
+/// (DEFINITION.md, "In floating-point numbers"; its numbers stand here again).
+class BodyPair {
+ public:
+  BodyPair(const Surface& moving, const Surface& fixed, const Pose& X_WM)
+      : moving_(moving, RigidTransform(X_WM)), fixed_(fixed, RigidTransform()) {
+    double extents = 0.0;
+    for (const Surface* surface : {&moving, &fixed}) {
+      double extent = 0.0;
+      for (const Vec3& v : surface->mesh.vertices) extent = std::max(extent, v.cwiseAbs().maxCoeff());
+      known_ += std::max(surface->mesh.planar_tolerance, 1e-9 * extent);
+      extents += extent;
+    }
+    largest_tilt_ = std::min(5e-5, 50.0 * known_ / extents);
+  }
+
+  Cells cells_of(const FeatureId& on_moving, const FeatureId& on_fixed) const {
+    return {triangles_at(moving_, on_moving), triangles_at(fixed_, on_fixed)};
+  }
+
+  /// Whether the LMD is where the exact one is, or both are of one plateau: distance vectors and
+  /// planes of contact are equal up to the tolerance, and once more for each contact that is
+  /// extended, and both meshes go on between them within that.
+  /// @param meet  whether their cells do
+  bool is_part_of(const ExactLmd& exact, const Lmd& found, bool meet, LevelParts& parts) const {
+    const double rounding = rounding_at(exact.point_moving, exact.point_fixed);
+    const Vec3 d = exact.point_fixed - exact.point_moving;
+    const Vec3 difference = found.point_fixed - found.point_moving - d;
+    const double allowed = 3.0 * known_ + largest_tilt_ * exact.distance + rounding;
+    // On common triangles a minimum and a segment or area level to the tolerance may be tilted.
+    const double longer = (difference + d).norm() - exact.distance;
+    if (meet && is_extended(found) && std::abs(longer) <= allowed &&
+        difference.squaredNorm() <= 4.0 * allowed * exact.distance)
+      return true;
+    const Vec3 apart = found.point_moving - exact.point_moving;
+    const double tilt = allowed / exact.distance;  // of the two planes of contact
+    if (!(difference.norm() <= allowed &&
+          std::abs(apart.dot(d)) <= exact.distance * (allowed + tilt * apart.norm())))
+      return false;
+    if (meet && apart.norm() <= allowed) return true;
+    if (are_copies(moving_, exact.feature_moving, found.feature_moving) ||
+        are_copies(fixed_, exact.feature_fixed, found.feature_fixed))
+      return false;
+    const auto goes_on = [&](auto& part, const WorldBody& body, const FeatureId& from, const FeatureId& to,
+                             const Vec3& p) {
+      if (!part) part = level_part(body, from, p, d / exact.distance, allowed, tilt);
+      return std::ranges::any_of(corners_of(body, to),
+                                 [&](std::int32_t vertex) { return part->contains(vertex); });
+    };
+    return goes_on(parts.moving, moving_, exact.feature_moving, found.feature_moving, exact.point_moving) &&
+           goes_on(parts.fixed, fixed_, exact.feature_fixed, found.feature_fixed, exact.point_fixed);
+  }
+
+  /// Whether the points lie on the named features and are `distance` apart. Of faces the middle of
+  /// a ring is only in their planes.
+  bool is_on_features(const Lmd& lmd) const {
+    const double rounding = rounding_at(lmd.point_moving, lmd.point_fixed);
+    const bool of_faces =
+        lmd.feature_moving.kind == FeatureKind::FACE && lmd.feature_fixed.kind == FeatureKind::FACE;
+    const auto holds = [&](const WorldBody& body, const FeatureId& feature, const Vec3& p) {
+      const auto corners = corners_of(body, feature);
+      Triangle t;
+      for (std::size_t i = 0; i < 3; ++i) t[i] = body.vertex(corners[std::min(i, corners.size() - 1)]);
+      if (testing::exact_distance(p, t) <= known_ + rounding) return true;
+      return of_faces &&
+             std::abs((t[1] - t[0]).cross(t[2] - t[0]).normalized().dot(p - t[0])) <= known_ + rounding;
+    };
+    return std::abs((lmd.point_fixed - lmd.point_moving).norm() - lmd.distance) <= rounding &&
+           holds(moving_, lmd.feature_moving, lmd.point_moving) &&
+           holds(fixed_, lmd.feature_fixed, lmd.point_fixed);
+  }
+
+  /// Whether triangles of the named features share a point. The LMD's own may lie in a hole of what
+  /// all triangles of its contact share.
+  bool intersect_at(const Lmd& lmd) const {
+    if (lmd.distance != 0.0 || lmd.point_moving != lmd.point_fixed) return false;
+    const Cells cells = cells_of(lmd.feature_moving, lmd.feature_fixed);
+    return std::ranges::any_of(cells.moving, [&](std::int32_t a) {
+      return std::ranges::any_of(cells.fixed, [&](std::int32_t b) {
+        return testing::exact_distance(moving_.triangle(a), fixed_.triangle(b)) == 0.0;
+      });
+    });
+  }
+
+  /// Whether two LMDs have one name, or one place and one distance vector on features that touch.
+  bool are_one(const Lmd& a, const Lmd& b) const {
+    const double allowed = rounding_at(a.point_moving, a.point_fixed);
+    return (a.feature_moving == b.feature_moving && a.feature_fixed == b.feature_fixed) ||
+           ((a.point_moving - b.point_moving).norm() <= allowed &&
+            (a.point_fixed - b.point_fixed).norm() <= allowed && a.distance > 2.0 * allowed &&
+            touch(moving_, a.feature_moving, b.feature_moving) &&
+            touch(fixed_, a.feature_fixed, b.feature_fixed));
+  }
+
+ private:
+  /// Two faces with the same corners: sheets that coincide have an LMD each.
+  static bool are_copies(const WorldBody& body, const FeatureId& a, const FeatureId& b) {
+    return a.kind == FeatureKind::FACE && b.kind == FeatureKind::FACE && a.index != b.index &&
+           std::ranges::is_permutation(body.corners(a.index), body.corners(b.index));
+  }
+  static bool touch(const WorldBody& body, const FeatureId& a, const FeatureId& b) {
+    return have_common(corners_of(body, a), corners_of(body, b)) && !are_copies(body, a, b);
+  }
+
+  /// A segment or an area, by its names.
+  static bool is_extended(const Lmd& lmd) {
+    return lmd.feature_moving.kind != FeatureKind::VERTEX && lmd.feature_fixed.kind != FeatureKind::VERTEX;
+  }
+
+  WorldBody moving_, fixed_;
+  double known_ = 0.0, largest_tilt_ = 0.0;  ///< ContactTolerance says what they are.
+};
 
 }  // namespace
 
-ExactAgreement compare_with_exact(const Scene& scene, const LmdSet& found,
+ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const LmdSet& found,
                                   const std::vector<ExactLmd>& exact) {
-  const Body& moving = *scene.moving;
-  std::vector<ContactTolerance> tolerances;  // their lengths do not depend on the pose
+  std::vector<BodyPair> pairs;
+  pairs.reserve(scene.fixed.size());
   for (const FixedBody& fixed : scene.fixed)
-    tolerances.push_back(ContactTolerance::of(moving, *fixed, RigidTransform(), 0.0));
-  const auto is_part_of = [&](const ExactLmd& truth, const Lmd& lmd) {
-    return same_contact(lmd, truth, tolerances[static_cast<std::size_t>(truth.fixed_body)]);
+    pairs.emplace_back(scene.moving->surface(), fixed->surface(), X_WM);
+  const auto pair_of = [&](std::int32_t body) -> const BodyPair& {
+    return pairs[static_cast<std::size_t>(body)];
   };
   ExactAgreement agreement;
-  for (const ExactLmd& truth : exact) {
+  LmdSet apart, intersecting;
+  for (const Lmd& lmd : found) {
+    if (!lmd.intersecting) {
+      if (lmd.distance != 0.0) apart.push_back(lmd);
+      continue;
+    }
+    const BodyPair& pair = pair_of(lmd.fixed_body);
+    if (!pair.intersect_at(lmd)) agreement.misplaced.push_back(lmd);
+    if (std::ranges::any_of(intersecting, [&](const Lmd& other) {
+          return other.fixed_body == lmd.fixed_body && other.feature_moving == lmd.feature_moving &&
+                 other.feature_fixed == lmd.feature_fixed;
+        }))
+      agreement.doubled.push_back(lmd);
+    intersecting.push_back(lmd);
+  }
+  agreement.found = static_cast<int>(apart.size());
+
+  // Exact LMDs on common triangles of both meshes are corners of one contact.
+  std::vector<Cells> cells;
+  for (const ExactLmd& truth : exact)
+    cells.push_back(pair_of(truth.fixed_body).cells_of(truth.feature_moving, truth.feature_fixed));
+  std::vector<std::size_t> parent(exact.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto contact_of = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::map<std::array<std::int32_t, 3>, std::size_t> on_triangles;
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    for (const std::int32_t a : cells[i].moving)
+      for (const std::int32_t b : cells[i].fixed)
+        parent[contact_of(i)] =
+            contact_of(on_triangles.try_emplace({exact[i].fixed_body, a, b}, i).first->second);
+
+  std::vector<Cells> own;
+  for (const Lmd& lmd : apart)
+    own.push_back(pair_of(lmd.fixed_body).cells_of(lmd.feature_moving, lmd.feature_fixed));
+  std::vector<bool> matched(apart.size(), false), shares = matched, required = matched, doubled = matched;
+  std::vector<std::size_t> matches(exact.size(), 0);
+  std::vector<std::set<std::size_t>> of_contact(exact.size());  // LMDs certainly of each contact
+  for (const bool surely : {true, false}) {
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      LevelParts parts;
+      std::size_t last = 0;
+      for (std::size_t k = 0; k < apart.size(); ++k) {
+        if (exact[i].fixed_body != apart[k].fixed_body) continue;
+        const bool meet = own[k].meet(cells[i]);
+        if (surely && !meet) continue;
+        auto& of = of_contact[contact_of(i)];
+        if (!of.contains(k) && !pair_of(exact[i].fixed_body).is_part_of(exact[i], apart[k], meet, parts))
+          continue;
+        if (surely) {
+          of.insert(k);
+          continue;
+        }
+        matched[k] = true;
+        if (matches[i]++ > 0) shares[k] = true;
+        last = k;
+      }
+      if (exact[i].certain && matches[i] == 1) required[last] = true;
+    }
+  }
+  agreement.required = static_cast<int>(std::ranges::count(required, true));
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const ExactLmd& truth = exact[i];
     ++agreement.exact;
-    if (std::any_of(found.begin(), found.end(), [&](const Lmd& lmd) { return same_features(lmd, truth); })) {
-      ++agreement.same_features;
-    } else if (std::any_of(found.begin(), found.end(),
-                           [&](const Lmd& lmd) { return is_part_of(truth, lmd); })) {
-      ++agreement.same_contact;
+    agreement.certain += truth.certain;
+    if (matches[i] > 0) {
+      const bool named = std::ranges::any_of(apart, [&](const Lmd& lmd) {
+        return lmd.fixed_body == truth.fixed_body && same_features(lmd, truth);
+      });
+      ++(named ? agreement.same_features : agreement.same_contact);
     } else if (!truth.certain) {
       ++agreement.uncertain;
     } else {
       agreement.missed.push_back(truth);
     }
   }
-  std::vector<bool> taken(exact.size(), false);
-  for (const Lmd& lmd : found) {
-    if (lmd.intersecting || lmd.distance == 0.0) continue;
-    ++agreement.found;
-    bool matches = false, shares = false;
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-      if (!same_features(lmd, exact[i]) && !is_part_of(exact[i], lmd)) continue;
-      matches = true;
-      shares = shares || taken[i];
-      taken[i] = true;
+  for (const auto& of : of_contact)
+    if (of.size() > 1)
+      for (const std::size_t k : std::ranges::subrange(std::next(of.begin()), of.end())) doubled[k] = true;
+  for (std::size_t k = 0; k < apart.size(); ++k) {
+    const BodyPair& pair = pair_of(apart[k].fixed_body);
+    for (std::size_t m = 0; m < k && !doubled[k]; ++m)
+      doubled[k] = apart[m].fixed_body == apart[k].fixed_body && pair.are_one(apart[m], apart[k]);
+    agreement.sharing += shares[k];
+    if (doubled[k]) agreement.doubled.push_back(apart[k]);
+    if (!pair.is_on_features(apart[k])) {
+      agreement.misplaced.push_back(apart[k]);
+    } else if (!matched[k]) {
+      agreement.untrue.push_back(apart[k]);
     }
-    agreement.sharing += shares;
-    if (!matches) agreement.untrue.push_back(lmd);
   }
   return agreement;
 }
@@ -98,7 +320,8 @@ bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd) {
          admits(fixed, lmd.feature_fixed, lmd.point_fixed, -d_W);
 }
 
-std::string describe(const ExactLmd& lmd) {
+template <typename AnyLmd>
+std::string describe(const AnyLmd& lmd) {
   std::ostringstream text;
   text.precision(17);
   text << to_string(lmd.feature_moving.kind) << " " << lmd.feature_moving.index << " of the moving mesh, "
@@ -107,5 +330,7 @@ std::string describe(const ExactLmd& lmd) {
        << " and " << lmd.point_fixed.transpose();
   return text.str();
 }
+template std::string describe(const ExactLmd&);
+template std::string describe(const Lmd&);
 
 }  // namespace lmdbench::exact

@@ -20,6 +20,7 @@ inline constexpr std::array JUDGED_METHODS = {"exhaustive", "certified"};
 
 /// Each adds its subcommand to `app`; naming it sets `chosen`, which must outlive the parsing.
 void add_truth(CLI::App& app, Run& chosen);
+void add_generated(CLI::App& app, Run& chosen);
 void add_ledger(CLI::App& app, Run& chosen);
 void add_flat(CLI::App& app, Run& chosen);
 void add_rest(CLI::App& app, Run& chosen);

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   exact::Run chosen;
   exact::add_truth(app, chosen);
+  exact::add_generated(app, chosen);
   exact::add_ledger(app, chosen);
   exact::add_flat(app, chosen);
   exact::add_rest(app, chosen);

@@ -38,6 +38,7 @@ constexpr std::array CLASS_NAMES = {"touching", "rounding", "tolerance", "apart"
 struct RestCounts {
   std::array<std::size_t, CLASSES.size()> poses{}, faulty{};
   std::array<std::size_t, REST_FAULT_NAMES.size()> faults{};
+  std::size_t places = 0, demanded = 0, located = 0;  ///< As in RestVerdict.
 
   void add(const RestCounts& other) {
     for (std::size_t i = 0; i < CLASSES.size(); ++i) {
@@ -45,6 +46,9 @@ struct RestCounts {
       faulty[i] += other.faulty[i];
     }
     for (std::size_t i = 0; i < faults.size(); ++i) faults[i] += other.faults[i];
+    places += other.places;
+    demanded += other.demanded;
+    located += other.located;
   }
 };
 
@@ -58,18 +62,19 @@ void print_row(const std::string& fit, const char* method, const RestCounts& c) 
   fmt::print("| {} | {} |", fit, method);
   for (std::size_t i = 0; i < CLASSES.size(); ++i) fmt::print(" {} of {} |", c.faulty[i], c.poses[i]);
   for (const std::size_t count : c.faults) fmt::print(" {} |", count);
+  fmt::print(" {} of {} | {} |", c.demanded, c.places, c.located);
   fmt::print("\n");
   std::fflush(stdout);
 }
 
 int judge_rest(const RestChoice& choice) {
   std::size_t told = 0;
-  bool wrong = false;
+  std::size_t judged = 0, wrong = 0;
   std::array<RestCounts, JUDGED_METHODS.size()> all;
   fmt::print("At fault, of the poses whose least gap is that:\n\n| fit | method |");
   for (const char* name : CLASS_NAMES) fmt::print(" {} |", name);
   for (const char* name : REST_FAULT_NAMES) fmt::print(" {} |", name);
-  fmt::print("\n|---|---|{}\n", [] {
+  fmt::print(" places demanded | points located |\n|---|---|---|---|{}\n", [] {
     std::string rule;
     for (std::size_t i = 0; i < CLASS_NAMES.size() + REST_FAULT_NAMES.size(); ++i) rule += "---|";
     return rule;
@@ -80,21 +85,27 @@ int judge_rest(const RestChoice& choice) {
       const parts::RestScene scene = parts::make_rest_scene(parts::rest_fit(name), choice.seed, index);
       const RestTruth truth(scene);
       const std::size_t gap_class = class_of(scene);
+      bool faulty = false;
+      ++judged;
       for (std::size_t m = 0; m < JUDGED_METHODS.size(); ++m) {
         const LmdSet lmds = lmds_at(*make_method(JUDGED_METHODS[m], scene.scene), scene.X_WM);
         const RestVerdict verdict = truth.judge(lmds);
         ++counts[m].poses[gap_class];
         for (std::size_t i = 0; i < verdict.faults.size(); ++i) counts[m].faults[i] += verdict.faults[i];
+        counts[m].places += verdict.places;
+        counts[m].demanded += verdict.demanded;
+        counts[m].located += verdict.located;
         if (!verdict.is_faulty()) continue;
         ++counts[m].faulty[gap_class];
-        if (!wrong && !choice.out.empty())
+        if (wrong == 0 && !faulty && !choice.out.empty())
           fmt::print(stderr, "The first scene at fault:\n  {}\n",
                      experiments::write_scene(scene.scene, scene.X_WM, JUDGED_METHODS[m], choice.out));
-        wrong = true;
+        faulty = true;
         if (++told <= choice.complaints)
           fmt::print(stderr, "{}: {}{}\n{}", JUDGED_METHODS[m], scene.text,
                      truth.intersecting() ? ", intersecting" : "", verdict.objections);
       }
+      wrong += faulty;
     }
     for (std::size_t m = 0; m < JUDGED_METHODS.size(); ++m) {
       all[m].add(counts[m]);
@@ -102,7 +113,11 @@ int judge_rest(const RestChoice& choice) {
     }
   }
   for (std::size_t m = 0; m < JUDGED_METHODS.size(); ++m) print_row("all", JUDGED_METHODS[m], all[m]);
-  return static_cast<int>(wrong ? ExitCode::CHECK_FAILED : ExitCode::DONE);
+  fmt::print(
+      "\n{} of {} poses are at fault; of each method {} of {} places were demanded and the points of {} "
+      "LMDs\n",
+      wrong, judged, all[0].demanded, all[0].places, all[0].located);
+  return static_cast<int>(wrong > 0 ? ExitCode::CHECK_FAILED : ExitCode::DONE);
 }
 
 }  // namespace

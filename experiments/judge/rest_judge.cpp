@@ -28,6 +28,10 @@ constexpr double TOUCHING = 2.0;
 /// Two conditions, each true up to rounding, hold together in directions up to so much farther off.
 constexpr double BOTH_CONES = 4.0;
 
+/// Distance of points from the centroid of their contact, over the size: borders of areas are off by
+/// the parts' tolerances; a segment's ends by the largest gap.
+constexpr double CENTROID = 1e-6, CENTROID_OF_FLOATS = 1e-3, CENTROID_OF_SEGMENT = 3e-3;
+
 struct WorldTriangle {
   Triangle corners;
   Eigen::AlignedBox3d box_D;  ///< In the design's frame, where triangles are parallel to the axes.
@@ -57,6 +61,24 @@ Triangle corners_of(const Surface& surface, const FeatureId& feature, const Rigi
 
 Vec3 normal_of(const Triangle& t) {
   return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+}
+
+/// The part of triangle `a` that lies over `b` along u, as a convex polygon in a's plane.
+std::vector<Vec3> part_over(const Triangle& a, const Triangle& b, const Vec3& u) {
+  std::vector<Vec3> polygon(a.begin(), a.end());
+  const double turn = (b[1] - b[0]).cross(b[2] - b[0]).dot(u) > 0.0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < 3 && !polygon.empty(); ++i) {
+    const Vec3 inwards = turn * u.cross(b[(i + 1) % 3] - b[i]);
+    std::vector<Vec3> kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec3 &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+      const double at_p = inwards.dot(p - b[i]), at_q = inwards.dot(q - b[i]);
+      if (at_p >= 0.0) kept.push_back(p);
+      if ((at_p >= 0.0) != (at_q >= 0.0)) kept.push_back(p + at_p / (at_p - at_q) * (q - p));
+    }
+    polygon = std::move(kept);
+  }
+  return polygon;
 }
 
 std::string text_of(const Lmd& lmd) {
@@ -109,6 +131,28 @@ void RestTruth::find_nearest() {
       high = std::min(high, bracket.high);
       intersecting_ = intersecting_ || (bracket.low <= 0.0L && testing::exactly_touch(a.corners, b.corners));
     }
+  areas_.resize(scene_.places.size());
+  for (std::size_t i = 0; i < areas_.size(); ++i) {
+    const parts::RestPlace& place = scene_.places[i];
+    if (place.dimension != 2) continue;
+    const Vec3 u = RigidTransform(scene_.X_WD).direction(place.direction);
+    const double reach = TOUCHING * (tolerance_ + place.gap);
+    for (const WorldTriangle& a : moving) {
+      if (!((normal_of(a.corners) - u).norm() <= tilt_)) continue;
+      for (const WorldTriangle& b : fixed) {
+        if (!((normal_of(b.corners) + u).norm() <= tilt_)) continue;
+        if (std::abs(u.dot(b.corners[0] - a.corners[0]) - place.gap) > TOUCHING * tolerance_) continue;
+        const std::vector<Vec3> polygon = part_over(a.corners, b.corners, u);
+        for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+          const Vec3 middle = (polygon[0] + polygon[k] + polygon[k + 1]) / 3.0;
+          if (place.box.exteriorDistance(X_DW_.point(middle)) > reach) continue;
+          const double area = 0.5 * (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]).norm();
+          areas_[i].size += area;
+          areas_[i].moment += area * middle;
+        }
+      }
+    }
+  }
   nearest_low_ = static_cast<double>(low);
   nearest_high_ = static_cast<double>(high);
 }
@@ -119,6 +163,8 @@ bool RestTruth::is_true(const Lmd& lmd, std::string& why) const {
   if (lmd.intersecting) {
     // It is the centroid of the shared points, which may lie in a hole of them.
     if (lmd.distance != 0.0) why += " intersecting at a distance;";
+    if (lmd.direction.allFinite()) why += " intersecting with a direction;";
+    if (!intersects(lmd)) why += " its triangles are apart;";
     return why.empty();
   }
   const Triangle on_moving = corners_of(scene_.scene.moving->surface(), lmd.feature_moving, X_WM_),
@@ -160,6 +206,38 @@ bool RestTruth::is_at(const parts::RestPlace& place, const Lmd& lmd) const {
   return !(known < 1.0) || (X_DW_.direction(lmd.direction) - place.direction).norm() <= known;
 }
 
+bool RestTruth::intersects(const Lmd& lmd) const {
+  const Surface &moving = scene_.scene.moving->surface(), &fixed = scene_.scene.fixed[0]->surface();
+  for (const std::int32_t a : moving.incident_triangles(lmd.feature_moving))
+    for (const std::int32_t b : fixed.incident_triangles(lmd.feature_fixed))
+      if (testing::exactly_touch(X_WM_.triangle(moving.mesh.triangle(a)), fixed.mesh.triangle(b)))
+        return true;
+  return false;
+}
+
+std::optional<std::pair<Vec3, double>> RestTruth::centroid_of(std::size_t index, const Lmd& lmd) const {
+  const parts::RestPlace& place = scene_.places[index];
+  const bool of_faces =
+      lmd.feature_moving.kind == FeatureKind::FACE && lmd.feature_fixed.kind == FeatureKind::FACE;
+  // A pair of faces is an area's, whether or not the place must have an LMD.
+  if (lmd.intersecting || (!of_faces && (scene_.single_precision || !place.demanded))) return std::nullopt;
+  // Of areas that intersect in part only the rest has an LMD with a distance.
+  if (intersecting_ && scene_.single_precision && place.gap <= TOUCHING * tolerance_) return std::nullopt;
+  // Areas of another place in this one's box are not told apart.
+  for (std::size_t i = 0; i < scene_.places.size(); ++i)
+    if (i != index && scene_.places[i].dimension >= place.dimension &&
+        (scene_.places[i].direction - place.direction).norm() <= tilt_ &&
+        scene_.places[i].box.exteriorDistance(place.box) <= TOUCHING * (tolerance_ + place.gap))
+      return std::nullopt;
+  if (place.dimension == 2 && areas_[index].size > 0.0)
+    return std::pair<Vec3, double>(areas_[index].moment / areas_[index].size,
+                                   (scene_.single_precision ? CENTROID_OF_FLOATS : CENTROID) * scene_.size);
+  if (place.dimension == 1 && !scene_.single_precision && place.gap > BOTH_CONES * tolerance_)
+    return std::pair<Vec3, double>(RigidTransform(scene_.X_WD).point(place.box.center()),
+                                   CENTROID_OF_SEGMENT * scene_.size);
+  return std::nullopt;
+}
+
 RestVerdict RestTruth::judge(const LmdSet& lmds) const {
   RestVerdict verdict;
   const auto object = [&](RestFault fault, const std::string& what) {
@@ -167,7 +245,8 @@ RestVerdict RestTruth::judge(const LmdSet& lmds) const {
     ++verdict.faults[kind];
     verdict.objections += fmt::format("  {}: {}\n", REST_FAULT_NAMES[kind], what);
   };
-  const double least = lmds.empty() ? std::numeric_limits<double>::infinity() : minimum_distance(lmds);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Lmd& lmd : lmds) least = std::min(least, lmd.distance);
   if (!(least >= nearest_low_ - tolerance_ && least <= nearest_high_ + tolerance_))
     object(RestFault::NEAREST, fmt::format("{:.6g} where the meshes are {:.6g} apart{}", least, nearest_high_,
                                            intersecting_ ? ", intersecting" : ""));
@@ -187,13 +266,28 @@ RestVerdict RestTruth::judge(const LmdSet& lmds) const {
     for (std::size_t i = 0; i < held.size(); ++i)
       if (is_at(scene_.places[i], lmd)) places.push_back(i);
     for (const std::size_t i : places) ++held[i];
-    if (places.size() == 1) ++alone[places.front()];
+    if (places.size() == 1) {
+      ++alone[places.front()];
+      if (const auto centroid = centroid_of(places.front(), lmd)) {
+        ++verdict.located;
+        const double off = (lmd.point_moving - centroid->first).norm();
+        if (!(off <= centroid->second))
+          object(RestFault::MISPLACED, fmt::format("{}: {:.3g} from the centroid", text_of(lmd), off));
+      }
+    }
     if (places.empty() && !(intersecting_ && is_open(lmd.distance)))
       object(RestFault::UNEXPECTED, text_of(lmd));
   }
+  for (std::size_t i = 0; i < lmds.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (lmds[i].intersecting == lmds[k].intersecting && lmds[i].feature_moving == lmds[k].feature_moving &&
+          lmds[i].feature_fixed == lmds[k].feature_fixed)
+        object(RestFault::DOUBLED, "a name twice: " + text_of(lmds[i]));
+  verdict.places = held.size();
   for (std::size_t i = 0; i < held.size(); ++i) {
     const parts::RestPlace& place = scene_.places[i];
     if (is_open(place.gap)) continue;
+    verdict.demanded += place.demanded;
     if (held[i] == 0 && place.demanded)
       object(RestFault::MISSING, text_of(place, RigidTransform(scene_.X_WD)));
     if (alone[i] > 1 && !is_loose(place))

@@ -31,13 +31,13 @@ int judge_truth(const TruthChoice& choice) {
   for (const std::string& experiment : choice.experiments) {
     for (Judgement& judgement : judge_experiment(experiment, choice.frames)) {
       for (const std::string& failure : judgement.failures) {
-        std::cerr << judgement.experiment << ": " << failure << '\n';
+        std::cerr << judgement.scene << ": " << failure << '\n';
         wrong = true;
       }
       judgements.push_back(std::move(judgement));
     }
   }
-  const std::string table = judgement_table(judgements);
+  const std::string table = judgement_table(judgements, "experiment");
   std::cout << table;
   if (!choice.out.empty()) std::ofstream(choice.out) << "# Ground truth in exact arithmetic\n\n" << table;
   return static_cast<int>(wrong ? ExitCode::CHECK_FAILED : ExitCode::DONE);

@@ -52,7 +52,7 @@ TEST(RestJudge, AcceptsWhatIsRightAndSeesEveryFault) {
   EXPECT_EQ(faults(truth.judge({}), RestFault::NEAREST), 1u);
   lmds = right;
   lmds.push_back(right.back());
-  EXPECT_EQ(faults(truth.judge(lmds), RestFault::DOUBLED), 1u);
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::DOUBLED), 2u) << "by its name and at its place";
   // One contact gets a direction between its own and that of another contact.
   lmds = right;
   lmds[1].direction = (right[0].direction + right[1].direction).normalized();
@@ -65,6 +65,54 @@ TEST(RestJudge, AcceptsWhatIsRightAndSeesEveryFault) {
   lmds = right;
   lmds[1].point_moving += 10.0 * truth.tolerance() * lmds[1].direction;
   EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
+  // One point is moved along its plane by 1 % of a cell.
+  const RestVerdict verdict = truth.judge(right);
+  EXPECT_EQ(verdict.places, 3u);
+  EXPECT_EQ(verdict.demanded, 3u);
+  EXPECT_EQ(verdict.located, 3u);
+  lmds = right;
+  const Vec3 along = 0.01 * scene.size * lmds[1].direction.unitOrthogonal();
+  lmds[1].point_moving += along;
+  lmds[1].point_fixed += along;
+  EXPECT_EQ(faults(truth.judge(lmds), RestFault::MISPLACED), 1u);
+}
+
+TEST(RestJudge, SeesWhatIntersectingPartsInFloatsCannotHave) {
+  for (std::size_t index = 0;; ++index) {
+    const parts::RestScene scene = make_rest_scene(parts::rest_fit("hook over box"), 1, index);
+    if (!scene.single_precision) continue;
+    const RestTruth truth(scene);
+    const LmdSet right = set_of("exhaustive", scene);
+    const auto first = std::ranges::find_if(right, [](const Lmd& lmd) { return lmd.intersecting; });
+    if (!truth.intersecting() || first == right.end()) continue;
+    EXPECT_EQ(truth.judge(right).objections, "") << scene.text;
+    const auto place = first - right.begin();
+    LmdSet lmds = right;
+    lmds[static_cast<std::size_t>(place)].direction = Vec3::UnitX();
+    EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
+    lmds = right;
+    lmds.push_back(*first);
+    EXPECT_EQ(faults(truth.judge(lmds), RestFault::DOUBLED), 1u);
+    // One more, of two triangles that are apart.
+    const TriangleMesh &moving = scene.scene.moving->surface().mesh,
+                       &fixed = scene.scene.fixed[0]->surface().mesh;
+    for (std::int32_t t = 0;; ++t) {
+      const Triangle a = RigidTransform(scene.X_WM).triangle(moving.triangle(t)), b = fixed.triangle(0);
+      Eigen::AlignedBox3d on_moving, on_fixed;
+      for (std::size_t i = 0; i < 3; ++i) {
+        on_moving.extend(a[i]);
+        on_fixed.extend(b[i]);
+      }
+      if (on_moving.intersects(on_fixed)) continue;
+      lmds = right;
+      lmds.push_back(*first);
+      lmds.back().feature_moving = {FeatureKind::FACE, t};
+      lmds.back().feature_fixed = {FeatureKind::FACE, 0};
+      break;
+    }
+    EXPECT_EQ(faults(truth.judge(lmds), RestFault::UNTRUE), 1u);
+    return;
+  }
 }
 
 /// Poses of each fit; lmdbench-judge rest makes a table over more.
