@@ -67,7 +67,7 @@ TEST(ConvexBodies, SheetsWithTwoSidesHaveOneLmd) {
 /// be put into one plane with them.
 TEST(ConvexBodies, ThinPlatesOfSinglePrecisionKeepTheirRim) {
   std::mt19937_64 random(33);
-  for (const double thickness : {1e-7, 2e-7, 4e-7, 1e-6}) {
+  for (const double thickness : {1e-8, 3e-8, 1e-7, 2e-7, 4e-7, 1e-6}) {
     for (int k = 0; k < 20; ++k) {
       const Pose whole = testing::pose_of_seed(random());
       TriangleMesh mesh = testing::rounded_to_floats(testing::placed(make_box({1, 1, thickness}), whole));

@@ -115,26 +115,28 @@ bool are_sides_of_plate(const TriangleMesh& mesh, const PlanarFace& a, const Pla
          all_near(mesh, a.vertices, b.plane, LEAST_ORIENTED_ALTITUDE * tolerance);
 }
 
-/// Takes the walls of such plates out of both sides, which would be put into one plane with them.
+/// Takes the walls of such plates out of their sides, which would be put into one plane with them.
 void take_out_walls(const Surface& surface, double tolerance, std::vector<PlanarFace>& faces) {
   const TriangleMesh& mesh = surface.mesh;
-  std::vector<std::vector<std::size_t>> at_vertex(mesh.vertices.size());
+  const auto is_noise = [&](std::int32_t t) {
+    return least_altitude(mesh.triangle(t)) <= LEAST_ORIENTED_ALTITUDE * tolerance;
+  };
+  std::vector<std::size_t> face_of(mesh.triangles.size(), faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f)
-    if (faces[f].vertices.size() > 3)
-      for (const std::int32_t v : faces[f].vertices) at_vertex[static_cast<std::size_t>(v)].push_back(f);
-  std::vector<bool> is_thin(faces.size(), false);
-  for (const auto& around : at_vertex)
-    for (std::size_t i = 0; i < around.size(); ++i)
-      for (std::size_t j = i + 1; j < around.size(); ++j)
-        if (!(is_thin[around[i]] && is_thin[around[j]]) &&
-            are_sides_of_plate(mesh, faces[around[i]], faces[around[j]], tolerance))
-          is_thin[around[i]] = is_thin[around[j]] = true;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    PlanarFace& face = faces[f];
-    if (!is_thin[f]) continue;
+    for (const std::int32_t t : faces[f].triangles) face_of[static_cast<std::size_t>(t)] = f;
+  for (PlanarFace& face : faces) {
+    if (face.vertices.size() <= 3 || std::ranges::none_of(face.triangles, is_noise)) continue;
+    const bool is_side = std::ranges::any_of(face.vertices, [&](std::int32_t v) {
+      return std::ranges::any_of(surface.adjacency.vertex_triangles[v], [&](std::int32_t t) {
+        const std::size_t other = face_of[static_cast<std::size_t>(t)];
+        return other < faces.size() && !is_noise(t) &&
+               are_sides_of_plate(mesh, face, faces[other], tolerance);
+      });
+    });
+    if (!is_side) continue;
     face.vertices.clear();
     for (const std::int32_t t : face.triangles)
-      if (least_altitude(mesh.triangle(t)) > LEAST_ORIENTED_ALTITUDE * tolerance)
+      if (!is_noise(t))
         face.vertices.insert(face.vertices.end(), mesh.triangles[static_cast<std::size_t>(t)].begin(),
                              mesh.triangles[static_cast<std::size_t>(t)].end());
     std::ranges::sort(face.vertices);
@@ -332,11 +334,14 @@ std::vector<Vec3> put_back(const TriangleMesh& mesh, std::vector<Constraint>& co
 FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice, bool flips) {
   FlatteningReport report;
   report.tolerance = choice.length(mesh);
-  if (flips)
-    report.collapsed_triangles = collapse_short_edges(mesh, SHORT_EDGE * bounding_box_diagonal(mesh));
-  if (flips)
+  if (flips) {
+    // Of single precision: the sides of a thinner plate may have changed places.
+    const double of_floats = choice.kind == PlanarTolerance::Kind::AUTO ? 0.5 * report.tolerance : 0.0;
+    report.collapsed_triangles =
+        collapse_short_edges(mesh, std::max(of_floats, SHORT_EDGE * bounding_box_diagonal(mesh)));
     report.flipped_triangles =
         flip_flat_triangles(mesh, std::max(report.tolerance, FLATNESS * largest_coordinate(mesh.vertices)));
+  }
   if (!(report.tolerance > 0.0)) return report;
   const double flat = FLAT_ULPS * std::numeric_limits<double>::epsilon() * largest_coordinate(mesh.vertices);
   if (report.tolerance <= flat) return report;
