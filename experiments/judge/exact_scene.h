@@ -51,19 +51,21 @@ struct ExactAgreement {
   std::vector<ExactLmd> missed;
   int found = 0;     ///< LMDs of the judged set at a distance above 0.
   int required = 0;  ///< Of these, those without which a certain one would be missed.
-  /// Those with a point off its feature or another distance than theirs; and intersecting ones whose
-  /// triangles are apart.
+  /// Those with a point off its feature or another distance than theirs; and intersecting ones
+  /// whose triangles are apart.
   LmdSet misplaced;
   LmdSet untrue;     ///< Of the others, those above 0 that match no exact LMD.
   /// Those beside another one of the same name, place or exact contact (exact LMDs that hang
   /// together over common triangles of both meshes, where distance is convex).
   LmdSet doubled;
-  /// Those whose exact LMD was matched before: doubled, or parts of a plateau that tolerances split.
+  /// Those whose exact LMD was matched before: doubled, or parts of a plateau that tolerances
+  /// split.
   int sharing = 0;
 };
 
 /// Matches by place: points up to the tolerance of the meshes (DEFINITION.md), or a plateau that
-/// goes on from the exact point to the named features. Where in a plateau a point lies is not asked.
+/// goes on from the exact point to the named features. Where in a plateau a point lies is not
+/// asked.
 ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const LmdSet& found,
                                   const std::vector<ExactLmd>& exact);
 

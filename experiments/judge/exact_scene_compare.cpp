@@ -39,8 +39,8 @@ bool have_common(const Triangles& a, const Triangles& b) {
   return std::ranges::any_of(a, [&](std::int32_t t) { return std::ranges::find(b, t) != b.end(); });
 }
 
-/// Triangles that hold a pair of features on both meshes. Two pairs on the same two triangles are of
-/// one contact, because distance is convex on these.
+/// Triangles that hold a pair of features on both meshes. Two pairs on the same two triangles are
+/// of one contact, because distance is convex on these.
 struct Cells {
   Triangles moving, fixed;
   bool meet(const Cells& other) const {

@@ -28,8 +28,8 @@ constexpr double TOUCHING = 2.0;
 /// Two conditions, each true up to rounding, hold together in directions up to so much farther off.
 constexpr double BOTH_CONES = 4.0;
 
-/// Distance of points from the centroid of their contact, over the size: borders of areas are off by
-/// the parts' tolerances; a segment's ends by the largest gap.
+/// Distance of points from the centroid of their contact, over the size: borders of areas are off
+/// by the parts' tolerances; a segment's ends by the largest gap.
 constexpr double CENTROID = 1e-6, CENTROID_OF_FLOATS = 1e-3, CENTROID_OF_SEGMENT = 3e-3;
 
 struct WorldTriangle {

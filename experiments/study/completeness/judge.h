@@ -35,8 +35,8 @@ struct Judgement {
   Judgement& operator+=(const Judgement& other);
 };
 
-/// Compares one pose's sets: distances and points to the tolerances, directions to the bit, as an LMD
-/// is a function of its contacts. Named triangles must hold the features.
+/// Compares one pose's sets: distances and points to the tolerances, directions to the bit, as an
+/// LMD is a function of its contacts. Named triangles must hold the features.
 /// @param diagonal  scale of the differences [m]
 /// @param objection receives the differences with features and distances; empty when there are none
 /// @param nearest   what the least distance has to be; nothing where it is not asked

@@ -204,7 +204,8 @@ constexpr double FACE_DIRECTION = 1e-12;
 
 /// Whether an LMD of the changed pair is one before. Of an edge on a face and a face on an edge at
 /// one place either may give the name, and its normal the direction. The middle of an overlap as
-/// narrow as the tolerance is known to the tolerance, along edges that are all but parallel a crossing.
+/// narrow as the tolerance is known to the tolerance, along edges that are all but parallel a
+/// crossing.
 /// @param width of distances [m]
 bool is_same(const Lmd& a, const Lmd& b, double width, const Widths& widths) {
   const auto has = [&](FeatureKind kind) {

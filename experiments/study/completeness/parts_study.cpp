@@ -16,7 +16,8 @@ namespace {
 
 /// Of the scale; the tolerance of the definition.
 constexpr double SAME = 1e-9;
-/// Of the scale: some roundings of the definition, within which an LMD may belong to what intersects.
+/// Of the scale: some roundings of the definition, within which an LMD may belong to what
+/// intersects.
 constexpr double BESIDE = 8.0 * CONTACT_ROUNDING;
 /// Directions of one contact differ by no more: the largest tilt of exact meshes, once for each.
 constexpr double SAME_DIRECTION = 2.0 * TILT_PER_TOLERANCE * LEAST_TOLERANCE;

@@ -39,9 +39,9 @@ struct FlatteningReport {
 /// The walls of a plate that is thinner than a few tolerances are noise: each of its sides gets a
 /// plane of its own.
 ///
-/// Before, edges as short as the rounding of doubles (with `AUTO` that of single precision in such a
-/// mesh) are collapsed, and triangles that are flat to the tolerance, or to the rounding of doubles,
-/// and close a T junction are flipped: rounding turns some of them over.
+/// Before, edges as short as the rounding of doubles (with `AUTO` that of single precision in such
+/// a mesh) are collapsed, and triangles that are flat to the tolerance, or to the rounding of
+/// doubles, and close a T junction are flipped: rounding turns some of them over.
 /// @param flips false for a mesh that deforms: its triangles gain area. Collapses none then, either
 FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice = {}, bool flips = true);
 
