@@ -54,7 +54,7 @@ struct ExactAgreement {
   /// Those with a point off its feature or another distance than theirs; and intersecting ones
   /// whose triangles are apart.
   LmdSet misplaced;
-  LmdSet untrue;     ///< Of the others, those above 0 that match no exact LMD.
+  LmdSet untrue;  ///< Of the others, those above 0 that match no exact LMD.
   /// Those beside another one of the same name, place or exact contact (exact LMDs that hang
   /// together over common triangles of both meshes, where distance is convex).
   LmdSet doubled;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <lmdbench/lmd/scene.h>
 #include <lmdbench/lmd/method.h>
+#include <lmdbench/lmd/scene.h>
 
 #include <cstdint>
 #include <filesystem>
