@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <boost/pending/disjoint_sets.hpp>
 #include <judge/exact_distance.h>
 #include <judge/exact_scene.h>
 #include <judge/exact_scene_body.h>
@@ -10,7 +11,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -26,8 +26,9 @@ double rounding_at(const Vec3& p, const Vec3& q) {
          std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
 }
 
-bool same_features(const Lmd& found, const ExactLmd& exact) {
-  return found.feature_moving == exact.feature_moving && found.feature_fixed == exact.feature_fixed;
+/// Of Lmd and ExactLmd.
+bool same_features(const auto& a, const auto& b) {
+  return a.feature_moving == b.feature_moving && a.feature_fixed == b.feature_fixed;
 }
 
 Triangles triangles_at(const WorldBody& body, const FeatureId& feature) {
@@ -166,7 +167,7 @@ class BodyPair {
   /// Whether two LMDs have one name, or one place and one distance vector on features that touch.
   bool are_one(const Lmd& a, const Lmd& b) const {
     const double allowed = rounding_at(a.point_moving, a.point_fixed);
-    return (a.feature_moving == b.feature_moving && a.feature_fixed == b.feature_fixed) ||
+    return same_features(a, b) ||
            ((a.point_moving - b.point_moving).norm() <= allowed &&
             (a.point_fixed - b.point_fixed).norm() <= allowed && a.distance > 2.0 * allowed &&
             touch(moving_, a.feature_moving, b.feature_moving) &&
@@ -213,8 +214,7 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
     const BodyPair& pair = pair_of(lmd.fixed_body);
     if (!pair.intersect_at(lmd)) agreement.misplaced.push_back(lmd);
     if (std::ranges::any_of(intersecting, [&](const Lmd& other) {
-          return other.fixed_body == lmd.fixed_body && other.feature_moving == lmd.feature_moving &&
-                 other.feature_fixed == lmd.feature_fixed;
+          return other.fixed_body == lmd.fixed_body && same_features(other, lmd);
         }))
       agreement.doubled.push_back(lmd);
     intersecting.push_back(lmd);
@@ -225,18 +225,12 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
   std::vector<Cells> cells;
   for (const ExactLmd& truth : exact)
     cells.push_back(pair_of(truth.fixed_body).cells_of(truth.feature_moving, truth.feature_fixed));
-  std::vector<std::size_t> parent(exact.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto contact_of = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  boost::disjoint_sets_with_storage<> contacts(exact.size());
   std::map<std::array<std::int32_t, 3>, std::size_t> on_triangles;
   for (std::size_t i = 0; i < exact.size(); ++i)
     for (const std::int32_t a : cells[i].moving)
       for (const std::int32_t b : cells[i].fixed)
-        parent[contact_of(i)] =
-            contact_of(on_triangles.try_emplace({exact[i].fixed_body, a, b}, i).first->second);
+        contacts.union_set(i, on_triangles.try_emplace({exact[i].fixed_body, a, b}, i).first->second);
 
   std::vector<Cells> own;
   for (const Lmd& lmd : apart)
@@ -252,7 +246,7 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
         if (exact[i].fixed_body != apart[k].fixed_body) continue;
         const bool meet = own[k].meet(cells[i]);
         if (surely && !meet) continue;
-        auto& of = of_contact[contact_of(i)];
+        auto& of = of_contact[contacts.find_set(i)];
         if (!of.contains(k) && !pair_of(exact[i].fixed_body).is_part_of(exact[i], apart[k], meet, parts))
           continue;
         if (surely) {

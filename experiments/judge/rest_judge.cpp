@@ -11,6 +11,12 @@
 #include <vector>
 
 namespace lmdbench::exact {
+
+struct WorldTriangle {
+  Triangle corners;
+  Eigen::AlignedBox3d box_D;  ///< In the design's frame, where triangles are parallel to the axes.
+};
+
 namespace {
 
 /// Accepted error of numbers in an answer, relative to the largest coordinate.
@@ -31,11 +37,6 @@ constexpr double BOTH_CONES = 4.0;
 /// Distance of points from the centroid of their contact, over the size: borders of areas are off
 /// by the parts' tolerances; a segment's ends by the largest gap.
 constexpr double CENTROID = 1e-6, CENTROID_OF_FLOATS = 1e-3, CENTROID_OF_SEGMENT = 3e-3;
-
-struct WorldTriangle {
-  Triangle corners;
-  Eigen::AlignedBox3d box_D;  ///< In the design's frame, where triangles are parallel to the axes.
-};
 
 std::vector<WorldTriangle> world_triangles(const Surface& surface, const RigidTransform& X_WS,
                                            const RigidTransform& X_DW) {
@@ -116,12 +117,14 @@ RestTruth::RestTruth(const parts::RestScene& scene)
   if (scene.single_precision)
     tolerance_ = std::max(tolerance_, TOLERANCES_OF_FLOATS * std::numeric_limits<float>::epsilon() * largest);
   tilt_ = scene.single_precision ? TILT_OF_FLOATS : TILT;
-  find_nearest();
+  const auto triangles_moving = world_triangles(scene_.scene.moving->surface(), X_WM_, X_DW_);
+  const auto triangles_fixed = world_triangles(scene_.scene.fixed[0]->surface(), RigidTransform(), X_DW_);
+  find_nearest(triangles_moving, triangles_fixed);
+  find_areas(triangles_moving, triangles_fixed);
 }
 
-void RestTruth::find_nearest() {
-  const auto moving = world_triangles(scene_.scene.moving->surface(), X_WM_, X_DW_);
-  const auto fixed = world_triangles(scene_.scene.fixed[0]->surface(), RigidTransform(), X_DW_);
+void RestTruth::find_nearest(const std::vector<WorldTriangle>& moving,
+                             const std::vector<WorldTriangle>& fixed) {
   long double low = std::numeric_limits<long double>::infinity(), high = low;
   for (const WorldTriangle& a : moving)
     for (const WorldTriangle& b : fixed) {
@@ -131,6 +134,12 @@ void RestTruth::find_nearest() {
       high = std::min(high, bracket.high);
       intersecting_ = intersecting_ || (bracket.low <= 0.0L && testing::exactly_touch(a.corners, b.corners));
     }
+  nearest_low_ = static_cast<double>(low);
+  nearest_high_ = static_cast<double>(high);
+}
+
+void RestTruth::find_areas(const std::vector<WorldTriangle>& moving,
+                           const std::vector<WorldTriangle>& fixed) {
   areas_.resize(scene_.places.size());
   for (std::size_t i = 0; i < areas_.size(); ++i) {
     const parts::RestPlace& place = scene_.places[i];
@@ -153,8 +162,6 @@ void RestTruth::find_nearest() {
       }
     }
   }
-  nearest_low_ = static_cast<double>(low);
-  nearest_high_ = static_cast<double>(high);
 }
 
 bool RestTruth::is_true(const Lmd& lmd, std::string& why) const {

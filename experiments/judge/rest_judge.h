@@ -44,6 +44,8 @@ struct RestVerdict {
   bool is_faulty() const { return !objections.empty(); }
 };
 
+struct WorldTriangle;
+
 /// The truth of one scene.
 class RestTruth {
  public:
@@ -58,7 +60,8 @@ class RestTruth {
   RestVerdict judge(const LmdSet& lmds) const;
 
  private:
-  void find_nearest();
+  void find_nearest(const std::vector<WorldTriangle>& moving, const std::vector<WorldTriangle>& fixed);
+  void find_areas(const std::vector<WorldTriangle>& moving, const std::vector<WorldTriangle>& fixed);
   bool is_true(const Lmd& lmd, std::string& why) const;
   bool is_at(const parts::RestPlace& place, const Lmd& lmd) const;
   bool intersects(const Lmd& lmd) const;

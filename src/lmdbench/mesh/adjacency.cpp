@@ -97,6 +97,8 @@ Adjacency build_adjacency(const TriangleMesh& mesh) {
   adjacency.triangle_edges.resize(mesh.triangles.size());
   adjacency.edge_triangles = EdgeTriangles(edge_count);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const bool is_collapsed = names_vertex_twice(mesh.triangles[t]);
+    if (is_collapsed) adjacency.collapsed.push_back(static_cast<std::int32_t>(t));
     for (std::size_t k = 0; k < 3; ++k) {
       const SideIndex earliest = first[3 * t + k];
       std::int32_t& edge = adjacency.triangle_edges[t][k];
@@ -107,18 +109,16 @@ Adjacency build_adjacency(const TriangleMesh& mesh) {
       } else {
         edge = adjacency.triangle_edges[earliest / 3][earliest % 3];
       }
-      if (!names_vertex_twice(mesh.triangles[t]))
-        adjacency.edge_triangles.add(edge, static_cast<std::int32_t>(t));
+      if (!is_collapsed) adjacency.edge_triangles.add(edge, static_cast<std::int32_t>(t));
     }
-    if (names_vertex_twice(mesh.triangles[t])) adjacency.collapsed.push_back(static_cast<std::int32_t>(t));
   }
   if (adjacency.collapsed.empty()) return adjacency;
-  std::vector<bool> has_others(edge_count);
-  for (std::size_t e = 0; e < edge_count; ++e)
-    has_others[e] = !adjacency.edge_triangles[static_cast<std::int32_t>(e)].empty();
   for (const std::int32_t t : adjacency.collapsed)
-    for (const std::int32_t edge : adjacency.triangle_edges[static_cast<std::size_t>(t)])
-      if (!has_others[static_cast<std::size_t>(edge)]) adjacency.edge_triangles.add(edge, t);
+    for (const std::int32_t edge : adjacency.triangle_edges[static_cast<std::size_t>(t)]) {
+      const auto row = adjacency.edge_triangles[edge];
+      if (row.empty() || names_vertex_twice(mesh.triangles[static_cast<std::size_t>(row.front())]))
+        adjacency.edge_triangles.add(edge, t);
+    }
   std::vector<bool> has_whole(mesh.vertices.size());
   for (const auto& corners : mesh.triangles)
     if (!names_vertex_twice(corners))

@@ -3,8 +3,6 @@
 #include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/triangle_normal.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -108,11 +106,6 @@ std::int64_t flip_flat_triangles(TriangleMesh& mesh, double height) {
     }
   }
   return flipped;
-}
-
-std::string flipped_text(std::int64_t count) {
-  return fmt::format("{} flat triangle{}, which close{} T junctions, flipped with the faces beside", count,
-                     count == 1 ? "" : "s", count == 1 ? "s" : "");
 }
 
 }  // namespace lmdbench

@@ -5,7 +5,6 @@
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <cstdint>
-#include <string>
 
 namespace lmdbench {
 
@@ -20,8 +19,5 @@ namespace lmdbench {
 /// @param height in the mesh's unit
 /// @return how many were flipped
 std::int64_t flip_flat_triangles(TriangleMesh& mesh, double height = 0.0);
-
-/// A clause for people.
-std::string flipped_text(std::int64_t count);
 
 }  // namespace lmdbench

@@ -27,7 +27,7 @@ std::int64_t collapse_short_edges(TriangleMesh& mesh, double length) {
   for (const auto& [v, w] : short_edges)
     places.union_set(static_cast<std::size_t>(v), static_cast<std::size_t>(w));
   std::vector<std::int32_t> first(mesh.vertices.size());  // of each place, at its root
-  for (std::size_t v = 0; v < first.size(); ++v) first[v] = static_cast<std::int32_t>(v);
+  std::iota(first.begin(), first.end(), 0);
   const auto key = [&](std::int32_t v) {
     return std::array{position(v).x(), position(v).y(), position(v).z()};
   };

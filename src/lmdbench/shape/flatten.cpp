@@ -373,7 +373,9 @@ std::string repairs_text(const FlatteningReport& report) {
     text = fmt::format("{} triangle{} with a side as short as rounding collapsed", report.collapsed_triangles,
                        report.collapsed_triangles == 1 ? "" : "s");
   if (report.flipped_triangles > 0)
-    text += (text.empty() ? "" : "; ") + flipped_text(report.flipped_triangles);
+    text += fmt::format("{}{} flat triangle{}, which close{} T junctions, flipped with the faces beside",
+                        text.empty() ? "" : "; ", report.flipped_triangles,
+                        report.flipped_triangles == 1 ? "" : "s", report.flipped_triangles == 1 ? "s" : "");
   return text;
 }
 
