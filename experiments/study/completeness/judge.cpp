@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/well_formed.h>
+
 #include <fmt/format.h>
 #include <study/completeness/judge.h>
 
@@ -32,16 +34,6 @@ const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
 
 bool same_direction(const Lmd& a, const Lmd& b) {
   return a.direction == b.direction || (a.direction.hasNaN() && b.direction.hasNaN());
-}
-
-/// @param lmd its features and body exist
-bool triangles_hold_features(const Lmd& lmd, const Scene& scene) {
-  const auto holds = [](const Body& body, std::int32_t triangle, const FeatureId& feature) {
-    const auto& triangles = body.surface().incident_triangles(feature);
-    return std::ranges::find(triangles, triangle) != triangles.end();
-  };
-  return holds(*scene.moving, lmd.triangle_moving, lmd.feature_moving) &&
-         holds(*scene.fixed[static_cast<std::size_t>(lmd.fixed_body)], lmd.triangle_fixed, lmd.feature_fixed);
 }
 
 /// LMDs beyond the first of a feature pair. Intersecting LMDs are counted apart: their feature pair
@@ -95,9 +87,9 @@ Judgement judge(const LmdSet& truth, const LmdSet& reported, const Scene& scene,
     if (!same_direction(lmd, *same))
       object(fmt::format("{}: another direction, {:.17g} {:.17g} {:.17g}", describe(lmd), same->direction.x(),
                          same->direction.y(), same->direction.z()));
-    if (!triangles_hold_features(*same, scene))
-      object(fmt::format("{}: triangles {} and {} do not hold it", describe(lmd), same->triangle_moving,
-                         same->triangle_fixed));
+    if (!is_well_formed(*same, scene))
+      object(fmt::format("{}: not well formed, with triangles {} and {}", describe(lmd),
+                         same->triangle_moving, same->triangle_fixed));
   }
   for (const Lmd& lmd : reported)
     if (find_pair(truth, lmd) == nullptr) object("reported " + describe(lmd) + ", which is none");

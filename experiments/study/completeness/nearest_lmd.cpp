@@ -20,6 +20,23 @@ bool is_solid(const Body& body, bool by_design) {
                         self_intersections(body.surface().mesh).pairs == 0));
 }
 
+/// How deep behind a triangle its solid is looked for, over the size: beyond rounding, within plates.
+constexpr double DEPTHS[] = {1e-10, 1e-9, 1e-8, 1e-7, 1e-6};
+
+/// Not of a sheet whose sides single precision brought together or through each other, nor of a
+/// part that touches the rest in a corner and is turned inside out.
+bool bounds_solid(std::int32_t triangle, const Body& body) {
+  const TriangleMesh& mesh = body.surface().mesh;
+  const Triangle corners = mesh.triangle(triangle);
+  const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0,
+             outwards = body.surface().face_normals[static_cast<std::size_t>(triangle)];
+  for (const double depth : DEPTHS) {
+    const double winding = winding_number(middle - depth * body.diagonal() * outwards, mesh);
+    if (std::abs(winding) > 0.5) return winding > 0.0;
+  }
+  return false;
+}
+
 bool is_outside(const Vec3& point, const TriangleMesh& mesh) {
   return std::abs(winding_number(point, mesh)) < 0.5;
 }
@@ -38,6 +55,8 @@ std::optional<NearestLmd> NearestLmds::at(const Pose& X_WM, double cutoff) const
   const double tolerance = 2.0 * lengths.known + lengths.rounding;
   const NearestPair nearest = nearest_pair(moving, fixed, X_WM, cutoff);
   if (!(nearest.distance > tolerance && nearest.distance < cutoff - tolerance)) return std::nullopt;
+  if (!bounds_solid(nearest.triangle_moving, moving) || !bounds_solid(nearest.triangle_fixed, fixed))
+    return std::nullopt;
   const Vec3 middle_W = 0.5 * (nearest.pair.point_a + nearest.pair.point_b);
   if (!is_outside(middle_W, fixed.surface().mesh) ||
       !is_outside(RigidTransform(X_WM.inverse()).point(middle_W), moving.surface().mesh))

@@ -34,10 +34,6 @@ double largest_coordinate_of(const Surface& surface) {
   return largest;
 }
 
-bool holds(const TriangleList& triangles, std::int32_t triangle) {
-  return std::ranges::find(triangles, triangle) != triangles.end();
-}
-
 /// Whether a triangle reaches farther along a direction than a point of it.
 bool reaches(const Triangle& triangle, const Vec3& point, const Vec3& direction) {
   // Corners of the saddle's own feature are square to it: rounding.
@@ -99,8 +95,8 @@ std::size_t MergeFinder::end_of_descent(const RigidTransform& X_WM, const Critic
     // to a birth, minimum and saddle are nearer than the kernel tells a face from its edge.
     for (std::size_t i = 0; i < critical.size() && end == NO_MINIMUM; ++i)
       if (critical[i].is_basin && critical[i].pair.fixed_body == body &&
-          holds(moving.incident_triangles(critical[i].pair.feature_moving), a) &&
-          holds(fixed.incident_triangles(critical[i].pair.feature_fixed), b))
+          moving.incident_triangles(critical[i].pair.feature_moving).contains(a) &&
+          fixed.incident_triangles(critical[i].pair.feature_fixed).contains(b))
         end = i;
     if (end != NO_MINIMUM) break;
     const FeatureId f = moving.feature_of(a, here.feature_a), g = fixed.feature_of(b, here.feature_b);

@@ -23,9 +23,8 @@ auto feature_key(const Lmd& lmd) {
 bool share_a_triangle(const Surface& surface, const FeatureId& a, const FeatureId& b) {
   const auto triangles_of_a = surface.incident_triangles(a);
   const auto triangles_of_b = surface.incident_triangles(b);
-  return std::any_of(triangles_of_a.begin(), triangles_of_a.end(), [&](std::int32_t triangle) {
-    return std::find(triangles_of_b.begin(), triangles_of_b.end(), triangle) != triangles_of_b.end();
-  });
+  return std::any_of(triangles_of_a.begin(), triangles_of_a.end(),
+                     [&](std::int32_t triangle) { return triangles_of_b.contains(triangle); });
 }
 
 bool neighbours(const Lmd& a, const Lmd& b, const Scene& scene) {

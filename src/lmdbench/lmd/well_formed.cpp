@@ -18,9 +18,10 @@ bool holds_feature(const Surface& surface, std::int32_t triangle, const FeatureI
   if (triangle < 0 || static_cast<std::size_t>(triangle) >= surface.mesh.triangles.size() ||
       feature.index < 0)
     return false;
-  const auto& triangles = surface.incident_triangles(feature);
-  return std::ranges::find(triangles, triangle) != triangles.end();
+  return surface.incident_triangles(feature).contains(triangle);
 }
+
+}  // namespace
 
 bool is_well_formed(const Lmd& lmd, const Scene& scene) {
   if (lmd.fixed_body < 0 || static_cast<std::size_t>(lmd.fixed_body) >= scene.fixed.size()) return false;
@@ -40,8 +41,6 @@ bool is_well_formed(const Lmd& lmd, const Scene& scene) {
   const double apart = (lmd.point_fixed - lmd.point_moving).norm();
   return std::abs(apart - lmd.distance) <= DISTANCE_ROUNDING * (coordinates + lmd.distance);
 }
-
-}  // namespace
 
 bool is_well_formed(const LmdSet& lmds, const Scene& scene) {
   return std::ranges::is_sorted(lmds, lmd_less) &&

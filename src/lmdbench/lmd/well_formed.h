@@ -7,9 +7,11 @@
 
 namespace lmdbench {
 
-/// Whether a set, complete or not, is sorted by `lmd_less`; its features, triangles and bodies
-/// exist; the triangles hold the features; directions are of unit length or NaN; distances are
-/// those of the points up to rounding of coordinates.
+/// Whether an LMD's features, triangles and body exist; the triangles hold the features; its
+/// direction is of unit length or NaN; its distance is that of the points up to rounding of
+/// coordinates.
+bool is_well_formed(const Lmd& lmd, const Scene& scene);
+/// Whether all LMDs of a set, complete or not, are well formed and sorted by `lmd_less`.
 bool is_well_formed(const LmdSet& lmds, const Scene& scene);
 
 }  // namespace lmdbench

@@ -106,9 +106,7 @@ void derive_flags(Surface& surface) {
     if (triangles == 2 && balance[e] == 0) continue;
     const bool boundary = triangles == 1;
     // A collapsed triangle leaves the corners of others as they are.
-    const auto first =
-        static_cast<std::size_t>(adjacency.edge_triangles[static_cast<std::int32_t>(e)].front());
-    if (names_vertex_twice(surface.mesh.triangles[first])) {
+    if (surface.is_of_collapsed(static_cast<std::int32_t>(e))) {
       surface.edge_is_boundary[e] = true;
       continue;
     }
@@ -188,6 +186,16 @@ TriangleList Surface::incident_triangles(const FeatureId& feature) const {
       break;
   }
   return TriangleList(feature.index);
+}
+
+std::int32_t Surface::triangle_named(const FeatureId& feature, std::int32_t triangle) const {
+  if (adjacency.collapsed.empty()) return triangle;
+  const TriangleList row = incident_triangles(feature);
+  return row.contains(triangle) ? triangle : row.front();
+}
+
+bool Surface::is_of_collapsed(std::int32_t edge) const {
+  return names_vertex_twice(mesh.triangles[static_cast<std::size_t>(adjacency.edge_triangles[edge].front())]);
 }
 
 Vec3 Surface::pseudo_normal(const FeatureId& feature) const {

@@ -7,6 +7,7 @@
 #include <lmdbench/mesh/feature.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,7 @@ class TriangleList {
   const std::int32_t* end() const { return begin() + size_; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  bool contains(std::int32_t triangle) const { return std::find(begin(), end(), triangle) != end(); }
   std::int32_t front() const { return *begin(); }
   std::int32_t operator[](std::size_t i) const { return begin()[i]; }
 
@@ -59,6 +61,11 @@ struct Surface {
   FeatureId feature_of(std::int32_t triangle, TriangleFeature part) const;
   /// Triangles of the feature: the face, those on the edge, those round the vertex (paper, Fig. 5).
   TriangleList incident_triangles(const FeatureId& feature) const;
+  /// The triangle whose feature was found, or, of a collapsed one that the feature's row leaves out,
+  /// the first in that row.
+  std::int32_t triangle_named(const FeatureId& feature, std::int32_t triangle) const;
+  /// Whether no triangle has an edge but collapsed ones.
+  bool is_of_collapsed(std::int32_t edge) const;
   /// Pseudo-normal of the feature: decides the outer side. Of an edge it is the normalised sum of
   /// the incident faces' normals, or zero; made on demand, because few ask for it.
   Vec3 pseudo_normal(const FeatureId& feature) const;

@@ -62,15 +62,9 @@ std::int64_t count_duplicates(const TriangleMesh& mesh) {
   return std::distance(std::unique(sorted.begin(), sorted.end()), sorted.end());
 }
 
-/// Whether no triangle has an edge but collapsed ones.
-bool is_of_collapsed(const Surface& surface, std::int32_t edge) {
-  return names_vertex_twice(
-      surface.mesh.triangles[static_cast<std::size_t>(surface.adjacency.edge_triangles[edge].front())]);
-}
-
 void count_defects(const Surface& surface, ValidityReport& report) {
   for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e)
-    if (surface.edge_is_boundary[static_cast<std::size_t>(e)] && !is_of_collapsed(surface, e))
+    if (surface.edge_is_boundary[static_cast<std::size_t>(e)] && !surface.is_of_collapsed(e))
       ++report.boundary_edges;
   report.boundary_loops = count_boundary_loops(surface);
   for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e) {
@@ -131,7 +125,7 @@ ValidityReport check_mesh(const Surface& surface) {
     // Euler and Poincare: V - E + T = 2 (components - genus), without collapsed triangles.
     std::int64_t edges = 0;
     for (std::int32_t e = 0; e < surface.adjacency.edge_count(); ++e)
-      if (!is_of_collapsed(surface, e)) ++edges;
+      if (!surface.is_of_collapsed(e)) ++edges;
     const auto collapsed = static_cast<std::int64_t>(surface.adjacency.collapsed.size());
     const std::int64_t euler =
         report.vertices - report.unused_vertices - edges + report.triangles - collapsed;

@@ -85,6 +85,7 @@ TEST_F(JudgeTest, TellsWhatIntersectsFromAnLmdOfTheSameFeatures) {
   Lmd touching = truth_[1];
   touching.intersecting = true;
   touching.distance = 0.0;
+  touching.point_fixed = touching.point_moving;
   truth_.insert(truth_.begin(), touching);
   EXPECT_EQ(judge_now(truth_).wrong_poses, 0u) << objection_;
   LmdSet reported = truth_;
@@ -113,7 +114,9 @@ TEST_F(JudgeTest, ComparesDirections) {
     EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
     EXPECT_THAT(objection_, HasSubstr("another direction"));
   }
-  truth_[1].direction.setConstant(std::numeric_limits<double>::quiet_NaN());
+  truth_[0].distance = 0.0;
+  truth_[0].point_fixed = truth_[0].point_moving;
+  truth_[0].direction.setConstant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(judge_now(truth_).wrong_poses, 0u) << objection_;
 }
 
@@ -121,7 +124,7 @@ TEST_F(JudgeTest, WantsTrianglesThatHoldTheFeaturesAndTheOrder) {
   LmdSet reported = truth_;
   reported[2].triangle_fixed = -1;
   EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
-  EXPECT_THAT(objection_, HasSubstr("do not hold it"));
+  EXPECT_THAT(objection_, HasSubstr("not well formed"));
   reported = truth_;
   std::swap(reported[0], reported[1]);
   EXPECT_EQ(judge_now(reported).wrong_poses, 1u);
@@ -155,6 +158,26 @@ TEST_F(JudgeTest, AsksForTheNearestPairOfSolidsThatAreApart) {
   open.triangles.pop_back();
   const Scene sheet{body_of(open), scene_.fixed, 1.0};
   EXPECT_FALSE(NearestLmds(sheet).at({Vec3(1.0, 0, 0)}, 1.0));
+  for (const double thickness : {0.0, 1e-9}) {  // a plate that rounding flattened has no solid
+    const Scene plate{body_of(make_box(Vec3(0.5, 0.5, thickness))), scene_.fixed, 1.0};
+    EXPECT_EQ(NearestLmds(plate, true).at({Vec3(1.0, 0.1, 0.2)}, 1.0).has_value(), thickness > 0.0);
+  }
+}
+
+/// A cube, and a small one turned inside out that touches it in a corner: closed, without folds.
+TEST_F(JudgeTest, AsksForNoNearestPairOfWhatIsTurnedInsideOut) {
+  TriangleMesh both = make_box(Vec3::Ones());
+  TriangleMesh inverted = make_box(Vec3::Constant(0.25));
+  for (auto corners : inverted.triangles) {
+    std::swap(corners[0], corners[1]);
+    for (std::int32_t& corner : corners) corner += static_cast<std::int32_t>(both.vertices.size());
+    both.triangles.push_back(corners);
+  }
+  for (const Vec3& vertex : inverted.vertices) both.vertices.push_back(vertex + Vec3::Constant(0.625));
+  const Scene scene{std::make_shared<const Body>("both", build_surface(both)), scene_.fixed, 1.0};
+  const NearestLmds nearest(scene);
+  EXPECT_TRUE(nearest.at({Vec3(1.125, 0, 0)}, 0.5)) << "the cube's side";
+  EXPECT_FALSE(nearest.at({Vec3(-1.5, -0.75, -0.75)}, 0.5)) << "the inverted one's";
 }
 
 }  // namespace
