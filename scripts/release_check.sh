@@ -6,8 +6,8 @@
 # result, so that what was measured can be committed; for studies, fuzzing and tables no test, so
 # that a better test leaves them valid; for searches in generated scenes what they include, without
 # rooms above the methods. Leaves results/release/COMMIT/PART.txt (the output, not committed) and
-# PART.verdict, and page.md in the newest of these folders. Exit code 1 if a part failed or is
-# missing.
+# PART.verdict, and page.md in the newest of these folders, with the cause of each part that failed
+# (results/release/causes.txt). Exit code 1 if a part failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -142,7 +142,7 @@ for name in "${chosen[@]}"; do
   say "   exit code $status, $(seconds_since "$started")"
 done
 
-failed=0
+failed=0 causes=""
 {
   # shellcheck disable=SC2016  # code spans, no commands
   printf '# lmdbench at %s\n\nMade by `scripts/release_check.sh`, part by part.\n\n' "$COMMIT"
@@ -155,8 +155,11 @@ failed=0
     [[ ! -s $made ]] || IFS='|' read -r status seconds day machine asked last <"$made"
     case $status in 0) verdict="passed" ;; missing) verdict="not run" ;; *) verdict="FAILED ($status)" ;; esac
     [[ $status == 0 ]] || failed=1
+    [[ $verdict != FAILED* ]] ||
+      causes+="- $(grep "^$name: " "$OUT/causes.txt" || printf '%s: not looked into yet.' "$name")"$'\n'
     printf '| %s | %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$at" "$verdict" "$seconds" "$day" "$machine" "$asked" "$last"
   done
+  [[ -z $causes ]] || printf '\nWhy parts failed:\n\n%s' "$causes"
   printf '\nWhat was found on the way: [notes](../notes.md).\n'
 } >"$OUT/$COMMIT/page.md"
 cat "$OUT/$COMMIT/page.md"

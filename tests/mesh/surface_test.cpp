@@ -254,6 +254,12 @@ TEST(SurfaceTest, CollapsedTrianglesLeaveAClosedMeshAsItIs) {
   EXPECT_TRUE(report.closed && report.manifold && report.consistently_oriented);
   EXPECT_EQ(report.genus, 0);
   EXPECT_EQ(report.degenerate_triangles, 9);
+  for (const std::int32_t t : surface.adjacency.collapsed)
+    for (const TriangleFeature part : {TriangleFeature::V0, TriangleFeature::V2, TriangleFeature::E0,
+                                       TriangleFeature::E1, TriangleFeature::E2, TriangleFeature::FACE}) {
+      const FeatureId feature = surface.feature_of(t, part);
+      EXPECT_TRUE(surface.incident_triangles(feature).contains(surface.triangle_named(feature, t))) << t;
+    }
 }
 
 TEST(SurfaceTest, TrianglesWithoutAreaAddNothing) {

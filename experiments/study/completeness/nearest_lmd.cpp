@@ -20,7 +20,7 @@ bool is_solid(const Body& body, bool by_design) {
                         self_intersections(body.surface().mesh).pairs == 0));
 }
 
-/// How deep behind a triangle its solid is looked for, over the size: beyond rounding, within plates.
+/// Over the size, how deep behind a triangle its solid is looked for: beyond rounding, in plates.
 constexpr double DEPTHS[] = {1e-10, 1e-9, 1e-8, 1e-7, 1e-6};
 
 /// Not of a sheet whose sides single precision brought together or through each other, nor of a
