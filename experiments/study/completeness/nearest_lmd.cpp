@@ -23,18 +23,23 @@ bool is_solid(const Body& body, bool by_design) {
 /// Over the size, how deep behind a triangle its solid is looked for: beyond rounding, in plates.
 constexpr double DEPTHS[] = {1e-10, 1e-9, 1e-8, 1e-7, 1e-6};
 
-/// Not of a sheet whose sides single precision brought together or through each other, nor of a
-/// part that touches the rest in a corner and is turned inside out.
-bool bounds_solid(std::int32_t triangle, const Body& body) {
-  const TriangleMesh& mesh = body.surface().mesh;
-  const Triangle corners = mesh.triangle(triangle);
-  const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0,
-             outwards = body.surface().face_normals[static_cast<std::size_t>(triangle)];
+/// Whether the solid is behind a point of the surface; not of a sheet whose sides single precision
+/// brought together or through each other, nor of a part that is turned inside out.
+bool bounds_solid(const Vec3& point, const Vec3& outwards, const Body& body) {
   for (const double depth : DEPTHS) {
-    const double winding = winding_number(middle - depth * body.diagonal() * outwards, mesh);
+    const double winding = winding_number(point - depth * body.diagonal() * outwards, body.surface().mesh);
     if (std::abs(winding) > 0.5) return winding > 0.0;
   }
   return false;
+}
+
+/// In the middle of a triangle, and beside a point of it.
+bool bounds_solid(std::int32_t triangle, const Vec3& nearest, const Body& body) {
+  const Triangle corners = body.surface().mesh.triangle(triangle);
+  const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0,
+             outwards = body.surface().face_normals[static_cast<std::size_t>(triangle)];
+  return bounds_solid(middle, outwards, body) &&
+         bounds_solid(nearest + 0.01 * (middle - nearest), outwards, body);
 }
 
 bool is_outside(const Vec3& point, const TriangleMesh& mesh) {
@@ -55,11 +60,13 @@ std::optional<NearestLmd> NearestLmds::at(const Pose& X_WM, double cutoff) const
   const double tolerance = 2.0 * lengths.known + lengths.rounding;
   const NearestPair nearest = nearest_pair(moving, fixed, X_WM, cutoff);
   if (!(nearest.distance > tolerance && nearest.distance < cutoff - tolerance)) return std::nullopt;
-  if (!bounds_solid(nearest.triangle_moving, moving) || !bounds_solid(nearest.triangle_fixed, fixed))
-    return std::nullopt;
-  const Vec3 middle_W = 0.5 * (nearest.pair.point_a + nearest.pair.point_b);
+  const RigidTransform X_MW(X_WM.inverse());
+  const Vec3 &p_W = nearest.pair.point_a, &q_W = nearest.pair.point_b;
+  const Vec3 middle_W = 0.5 * (p_W + q_W);
   if (!is_outside(middle_W, fixed.surface().mesh) ||
-      !is_outside(RigidTransform(X_WM.inverse()).point(middle_W), moving.surface().mesh))
+      !is_outside(X_MW.point(middle_W), moving.surface().mesh) ||
+      !bounds_solid(nearest.triangle_moving, X_MW.point(p_W), moving) ||
+      !bounds_solid(nearest.triangle_fixed, q_W, fixed))
     return std::nullopt;
   return NearestLmd{nearest.distance, tolerance};
 }

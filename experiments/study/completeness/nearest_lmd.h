@@ -24,7 +24,7 @@ class NearestLmds {
   ///                  they must not intersect themselves: folds have no outer side.
   explicit NearestLmds(const Scene& scene, bool by_design = false);
   /// Nothing where the meshes are no solids, nearer than the tolerance or, less that, beyond the
-  /// cutoff, or where the nearest pair lies inside one or a triangle of it has no solid behind it.
+  /// cutoff, or where the nearest pair lies inside one or no solid is behind an end of it.
   std::optional<NearestLmd> at(const Pose& X_WM, double cutoff) const;
 
  private:
