@@ -20,8 +20,8 @@ struct NearestLmd {
 class NearestLmds {
  public:
   /// @param scene     a pair
-  /// @param by_design whether closed meshes bound solids: rounding of doubles alone folds their
-  ///                  needles. Else they must not intersect themselves: folds have no outer side.
+  /// @param by_design whether closed meshes bound solids: rounding alone folds their needles. Else
+  ///                  they must not intersect themselves: folds have no outer side.
   explicit NearestLmds(const Scene& scene, bool by_design = false);
   /// Nothing where the meshes are no solids, nearer than the tolerance or, less that, beyond the
   /// cutoff, or where the nearest pair lies inside one or no solid is behind an end of it.

@@ -110,7 +110,7 @@ PartsResult judge_parts(const PartsStudy& study, const std::string& kind, parts:
     parts::PartsChoice choice{kind, coordinates, study.seed, index, study.family};
     const parts::PartsScene scene = make_parts_scene(choice);
     const auto exhaustive = make_method("exhaustive", scene.scene);
-    const NearestLmds nearest(scene.scene, coordinates != parts::Coordinates::ROUNDED);
+    const NearestLmds nearest(scene.scene, true);
     std::vector<std::unique_ptr<Method>> methods;
     for (const Variant& variant : variants()) methods.push_back(variant.make(scene.scene));
     std::optional<parts::PartsScene> uncut;
