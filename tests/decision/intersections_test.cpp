@@ -16,20 +16,6 @@
 namespace lmdbench {
 namespace {
 
-/// Rows of features leave collapsed triangles out.
-TEST(Intersections, NoCollapsedTriangleIsNamed) {
-  const Scene scene = testing::make_scene({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 0}, {0, 1, 2}}},
-                                          {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{1, 2, 2}, {0, 1, 2}}}, 1.0);
-  std::vector<Intersection> pieces{{scene.moving->surface().feature_of(0, TriangleFeature::E0),
-                                    scene.fixed_body().surface().feature_of(0, TriangleFeature::V0), 0, 0, 0,
-                                    0, 0.0, Vec3::Zero()}};
-  LmdSet lmds;
-  append_contacts(scene, pieces, lmds);
-  ASSERT_EQ(lmds.size(), 1U);
-  EXPECT_EQ(lmds[0].triangle_moving, 1);
-  EXPECT_EQ(lmds[0].triangle_fixed, 1);
-}
-
 struct CornerPair {
   std::array<std::int32_t, 3> moving, fixed;
 };

@@ -258,7 +258,8 @@ TEST(SurfaceTest, CollapsedTrianglesLeaveAClosedMeshAsItIs) {
     for (const TriangleFeature part : {TriangleFeature::V0, TriangleFeature::V2, TriangleFeature::E0,
                                        TriangleFeature::E1, TriangleFeature::E2, TriangleFeature::FACE}) {
       const FeatureId feature = surface.feature_of(t, part);
-      EXPECT_TRUE(surface.incident_triangles(feature).contains(surface.triangle_named(feature, t))) << t;
+      EXPECT_TRUE(surface.holds(t, feature)) << t;
+      EXPECT_FALSE(surface.holds(t, {feature.kind, feature.index + 12345})) << t;
     }
 }
 

@@ -46,7 +46,7 @@ TEST(Registry, DescriptionsAreCompleteAndDistinct) {
 
 /// Rows of features leave collapsed triangles out. Here they come first, so that they are first of
 /// equals.
-TEST(Registry, NoMethodNamesACollapsedTriangle) {
+TEST(Registry, SetsOfMeshesWithCollapsedTrianglesAreWellFormed) {
   std::mt19937_64 random(35);
   TriangleMesh box = make_box({1, 1, 1});
   for (const auto& [a, b] : build_surface(box).adjacency.edges)

@@ -148,10 +148,9 @@ void append_contacts(const Scene& scene, std::vector<Intersection>& intersection
     lmd.point_moving = lmd.point_fixed = contact.centroid;
     lmd.feature_moving = piece.on_moving;
     lmd.feature_fixed = piece.on_fixed;
+    lmd.triangle_moving = piece.triangle_moving;
+    lmd.triangle_fixed = piece.triangle_fixed;
     lmd.fixed_body = piece.fixed_body;
-    const Surface& fixed = scene.fixed[static_cast<std::size_t>(piece.fixed_body)]->surface();
-    lmd.triangle_moving = moving.triangle_named(piece.on_moving, piece.triangle_moving);
-    lmd.triangle_fixed = fixed.triangle_named(piece.on_fixed, piece.triangle_fixed);
     lmd.intersecting = true;
     lmds.push_back(lmd);
   }

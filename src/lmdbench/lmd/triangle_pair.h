@@ -22,8 +22,8 @@ inline Lmd lmd_of_triangle_pair(const Surface& moving, const Surface& fixed, std
   lmd.point_fixed = pair.point_b;
   lmd.feature_moving = moving.feature_of(t_moving, pair.feature_a);
   lmd.feature_fixed = fixed.feature_of(t_fixed, pair.feature_b);
-  lmd.triangle_moving = moving.triangle_named(lmd.feature_moving, t_moving);
-  lmd.triangle_fixed = fixed.triangle_named(lmd.feature_fixed, t_fixed);
+  lmd.triangle_moving = t_moving;
+  lmd.triangle_fixed = t_fixed;
   lmd.intersecting = pair.intersecting;
   return lmd;
 }

@@ -15,10 +15,8 @@ namespace {
 constexpr double DISTANCE_ROUNDING = 1e-9;
 
 bool holds_feature(const Surface& surface, std::int32_t triangle, const FeatureId& feature) {
-  if (triangle < 0 || static_cast<std::size_t>(triangle) >= surface.mesh.triangles.size() ||
-      feature.index < 0)
-    return false;
-  return surface.incident_triangles(feature).contains(triangle);
+  return triangle >= 0 && static_cast<std::size_t>(triangle) < surface.mesh.triangles.size() &&
+         surface.holds(triangle, feature);
 }
 
 }  // namespace

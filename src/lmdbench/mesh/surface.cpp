@@ -188,10 +188,18 @@ TriangleList Surface::incident_triangles(const FeatureId& feature) const {
   return TriangleList(feature.index);
 }
 
-std::int32_t Surface::triangle_named(const FeatureId& feature, std::int32_t triangle) const {
-  if (adjacency.collapsed.empty()) return triangle;
-  const TriangleList row = incident_triangles(feature);
-  return row.contains(triangle) ? triangle : row.front();
+bool Surface::holds(std::int32_t triangle, const FeatureId& feature) const {
+  const auto t = static_cast<std::size_t>(triangle);
+  switch (feature.kind) {
+    case FeatureKind::VERTEX:
+      return std::ranges::find(mesh.triangles[t], feature.index) != mesh.triangles[t].end();
+    case FeatureKind::EDGE:
+      return std::ranges::find(adjacency.triangle_edges[t], feature.index) !=
+             adjacency.triangle_edges[t].end();
+    case FeatureKind::FACE:
+      break;
+  }
+  return feature.index == triangle;
 }
 
 bool Surface::is_of_collapsed(std::int32_t edge) const {

@@ -61,9 +61,8 @@ struct Surface {
   FeatureId feature_of(std::int32_t triangle, TriangleFeature part) const;
   /// Triangles of the feature: the face, those on the edge, those round the vertex (paper, Fig. 5).
   TriangleList incident_triangles(const FeatureId& feature) const;
-  /// The triangle whose feature was found, or, for a collapsed one that the feature's row leaves
-  /// out, the first in that row.
-  std::int32_t triangle_named(const FeatureId& feature, std::int32_t triangle) const;
+  /// Whether a feature is the triangle's own: also of a collapsed one, which rows leave out.
+  bool holds(std::int32_t triangle, const FeatureId& feature) const;
   /// Whether no triangle has an edge but collapsed ones.
   bool is_of_collapsed(std::int32_t edge) const;
   /// Pseudo-normal of the feature: decides the outer side. Of an edge it is the normalised sum of

@@ -117,8 +117,8 @@ Lmd Original::lmd_of(const FeaturePoints<N>& a, const FeaturePoints<N>& b, const
   lmd.point_fixed = b[nearest.index_b];
   lmd.feature_moving = moving_.feature_of(t_moving, part_of_feature_point<N>(nearest.index_a));
   lmd.feature_fixed = fixed_.feature_of(t_fixed, part_of_feature_point<N>(nearest.index_b));
-  lmd.triangle_moving = moving_.triangle_named(lmd.feature_moving, t_moving);
-  lmd.triangle_fixed = fixed_.triangle_named(lmd.feature_fixed, t_fixed);
+  lmd.triangle_moving = t_moving;
+  lmd.triangle_fixed = t_fixed;
   lmd.intersecting = lmd.distance == 0.0;
   return lmd;
 }
