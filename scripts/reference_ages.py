@@ -46,11 +46,13 @@ def age(row):
     commits = [git("log", "-1", "--format=%H", "--", f"results/reference/{row.files[0]}").stdout.strip() if commit == ADDED else commit
                for commit in row.commits]
     code = [f"{folder}/*.{ending}" for folder in row.folders for ending in ("cpp", "h", "def")]
-    counts = [git("rev-list", "--count", f"{commit}..HEAD", "--", *code) for commit in commits]
-    for commit, done in zip(commits, counts):
+    since = 0
+    for commit in commits:
+        done = git("rev-list", "--count", f"{commit}..HEAD", "--", *code)
         if done.returncode != 0:
             raise SystemExit(f"error: {REGISTER}: {row.files[0]}: {commit}: {done.stderr.strip()} (remedy: a commit of this history)")
-    since = max(int(done.stdout) for done in counts)
+        if git("diff", "--quiet", commit, "HEAD", "--", *code).returncode != 0:  # what was taken back is no change
+            since = max(since, int(done.stdout))
     return since + (git("diff", "--quiet", "HEAD", "--", *code).returncode != 0)
 
 

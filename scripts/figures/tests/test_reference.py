@@ -7,6 +7,7 @@ import csv
 import io
 import os
 import re
+import subprocess
 import unittest
 import unittest.mock
 
@@ -68,6 +69,16 @@ class Register(unittest.TestCase):
         of = {commits: age(Row(f"| `a.md` | c | {commits} | lmd | |")) for commits in ("02e3e55", "02e3e55, HEAD", "HEAD, 02e3e55")}
         self.assertGreater(of["02e3e55"], 0)
         self.assertEqual(set(of.values()), {of["02e3e55"]})
+
+    def test_code_that_was_changed_and_changed_back_leaves_a_row_as_young(self):
+        for differs, expected in ((0, 0), (1, 2)):
+            def of_git(command, *arguments, differs=differs):
+                ends = subprocess.CompletedProcess(arguments, 0, "2\n", "")
+                if command == "diff" and "1234567" in arguments:
+                    ends.returncode = differs
+                return ends
+            with unittest.mock.patch.object(reference_ages, "git", of_git):
+                self.assertEqual(age(Row("| `a.md` | c | 1234567 | lmd | |")), expected)
 
 
 PAGE = """# Costs
