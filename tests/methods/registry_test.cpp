@@ -51,7 +51,7 @@ TEST(Registry, SetsOfMeshesWithCollapsedTrianglesAreWellFormed) {
   TriangleMesh box = make_box({1, 1, 1});
   for (const auto& [a, b] : build_surface(box).adjacency.edges)
     box.triangles.insert(box.triangles.begin(), {a, b, a});
-  const Scene scene = testing::make_scene(TriangleMesh(box), TriangleMesh(box), 0.5);
+  const Scene scene = testing::make_scene(box, box, 0.5);
   for (const MethodDescription& description : method_descriptions()) {
     const std::string name(description.name);
     const auto method = make_method(name, scene);

@@ -36,7 +36,7 @@ struct Judgement {
 };
 
 /// Compares one pose's sets: distances and points to the tolerances, directions to the bit, as an
-/// LMD is a function of its contacts. Named triangles must hold the features.
+/// LMD is a function of its contacts. Each must be well formed (well_formed.h).
 /// @param diagonal  scale of the differences [m]
 /// @param objection receives the differences with features and distances; empty when there are none
 /// @param nearest   what the least distance has to be; nothing where it is not asked

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/flaws.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -166,14 +167,8 @@ TEST_F(JudgeTest, AsksForTheNearestPairOfSolidsThatAreApart) {
 
 /// A cube, and a small one turned inside out that touches it in a corner: closed, without folds.
 TEST_F(JudgeTest, AsksForNoNearestPairOfWhatIsTurnedInsideOut) {
-  TriangleMesh both = make_box(Vec3::Ones());
-  TriangleMesh inverted = make_box(Vec3::Constant(0.25));
-  for (auto corners : inverted.triangles) {
-    std::swap(corners[0], corners[1]);
-    for (std::int32_t& corner : corners) corner += static_cast<std::int32_t>(both.vertices.size());
-    both.triangles.push_back(corners);
-  }
-  for (const Vec3& vertex : inverted.vertices) both.vertices.push_back(vertex + Vec3::Constant(0.625));
+  const TriangleMesh inverted = with_flips(make_box(Vec3::Constant(0.25)), 1);
+  const TriangleMesh both = merged(make_box(Vec3::Ones()), translated(inverted, Vec3::Constant(0.625)));
   const Scene scene{std::make_shared<const Body>("both", build_surface(both)), scene_.fixed, 1.0};
   const NearestLmds nearest(scene);
   EXPECT_TRUE(nearest.at({Vec3(1.125, 0, 0)}, 0.5)) << "the cube's side";
