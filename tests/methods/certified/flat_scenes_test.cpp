@@ -217,6 +217,24 @@ TEST(FlatScenes, TrianglesOfWallsAtRestAreNotCompared) {
   }
 }
 
+TEST(FlatScenes, AWallThatLeavesItsEdgeAlongTheFloorIsCompared) {
+  // The edge is in the floor by less than rounding; the thin triangle beside its end comes out of
+  // it farther on than the edge's contact tells of.
+  for (const double rise : {1e-9, 1e-8, 1e-7}) {
+    TriangleMesh wall;
+    wall.vertices = {{0.0, 0.0, -3e-15}, {0.0, 0.1, -3e-15},      {0.0, 0.1, 0.1},
+                     {0.0, -0.1, 0.1},   {0.0, -0.1, 2.0 * rise}, {0.0, -0.1, rise}};
+    wall.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
+    const TriangleMesh floor = make_box({0.3, 0.3, 0.1}, 3);
+    const Pose pose{Vec3(0.01, 0.0, 0.05), Eigen::Quaterniond::Identity()};
+    for (const bool wall_moves : {true, false}) {
+      FlatComparison pair(make_scene(wall_moves ? wall : floor, wall_moves ? floor : wall, 0.02));
+      pair.check(wall_moves ? pose : pose.inverse());
+      EXPECT_EQ(pair.found(), 2u) << rise;
+    }
+  }
+}
+
 TEST(FlatScenes, AContactOfTheFaceStandsForTheWallsBesideIt) {
   // Rings, whose edges' contacts are covered by that of their faces.
   const TriangleMesh ring =

@@ -494,13 +494,21 @@ std::optional<RestingRegions> TouchingPairs::find_chain_at_rest(const Frame& fra
     touching = chain;
   }
   if (touching < 0) return std::nullopt;
-  // Of a triangle beside the chain, with no corner on it, no contact of the chain tells.
-  for (const std::int32_t t : wall.side.shape.regions.region_triangles[wall.region])
-    for (const std::int32_t v : wall.side.surface.mesh.triangles[static_cast<std::size_t>(t)])
-      if (plane.height(wall.side.vertex(v)) <= CLEAR_ROUNDINGS * rounding &&
-          !is_on_chain(wall.side, v, touching))
-        return std::nullopt;
+  // Of a triangle beside the chain, with no corner on it, no contact of the chain tells; nor of one
+  // that leaves an end of the chain along the plane, which it may meet farther on.
   const auto [begin, end] = segment_of(wall.side, touching);
+  const Vec3 along = (end - begin).normalized();
+  const auto beyond_chain = [&](const Vec3& p) { return std::max(along.dot(begin - p), along.dot(p - end)); };
+  const auto is_at_chain_alone = [&](std::int32_t v) {
+    const Vec3 p = wall.side.vertex(v);
+    const double height = plane.height(p);
+    return height > CLEAR_ROUNDINGS * rounding ? height >= LEAST_SINE_OF_WALL * beyond_chain(p)
+                                               : is_on_chain(wall.side, v, touching);
+  };
+  for (const std::int32_t t : wall.side.shape.regions.region_triangles[wall.region])
+    if (!std::ranges::all_of(wall.side.surface.mesh.triangles[static_cast<std::size_t>(t)],
+                             is_at_chain_alone))
+      return std::nullopt;
   const auto flat = [&](const Vec3& p) { return base.shape->frame.flat(base.side.point_to_surface(p)); };
   const SegmentPart part = ConvexPolygon(base.shape->hull).part_of(flat(begin), flat(end), rounding);
   if (!(part.begin < part.end)) return std::nullopt;
