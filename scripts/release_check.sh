@@ -3,11 +3,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # All claims of the project at one commit, part by part; a new call continues, on another day or
 # machine too. A part's commit is the last one that changed what the part may read: no page and no
-# result, so that what was measured can be committed; for studies, fuzzing and tables no test, so
-# that a better test leaves them valid; for searches in generated scenes what they include, without
-# rooms above the methods. Leaves results/release/COMMIT/PART.txt (the output, not committed) and
-# PART.verdict, and page.md in the newest of these folders, with the cause of each part that failed
-# (results/release/causes.txt). Exit code 1 if a part failed or is missing.
+# result, so that what was measured can be committed; for searches, studies, fuzzing and tables no
+# test, so that a better test leaves them valid; for searches in generated scenes what they include,
+# without rooms above the methods. Leaves results/release/COMMIT/PART.txt (the output, not
+# committed) and PART.verdict, and page.md in the newest of these folders, with the cause of each
+# part that failed (results/release/causes.txt). Exit code 1 if a part failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -61,7 +61,7 @@ commit_of() {
   local -a read=(.) unread=(':!results' ':!*.md')
   case $1 in
   hostile | parts | solids | shapes | metamorphic | rest | generated)
-    read=("${SEARCHED[@]}") unread+=("${ABOVE_METHODS[@]/#/:!src/lmdbench/}")
+    read=("${SEARCHED[@]}") unread+=("${ABOVE_METHODS[@]/#/:!src/lmdbench/}" ':!*_test.cpp')
     ;;
   completeness | fuzz-* | reference)
     unread+=(':!*_test.cpp' ':!scripts/mutants.txt')

@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/decision/contact_tolerance.h>
+#include <lmdbench/geometry/tolerance.h>
 #include <lmdbench/lmd/body_distance.h>
+#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/self_intersections.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/mesh/winding_number.h>
+#include <lmdbench/shape/flat_regions.h>
 
 #include <study/completeness/nearest_lmd.h>
 
@@ -13,9 +16,14 @@
 namespace lmdbench::completeness {
 namespace {
 
+/// Whether loading (flatten.h) would flip flat triangles, beside which edges have no LMD.
+bool has_t_junctions(TriangleMesh mesh) {
+  return flip_flat_triangles(mesh, FLATNESS * lmdbench::largest_coordinate(mesh.vertices)) > 0;
+}
+
 bool is_solid(const Body& body, bool by_design) {
   const ValidityReport report = check_mesh(body.surface());
-  return report.closed && report.outward.value_or(false) &&
+  return report.closed && report.outward.value_or(false) && !has_t_junctions(body.surface().mesh) &&
          (by_design || (report.manifold && report.duplicate_triangles == 0 &&
                         self_intersections(body.surface().mesh).pairs == 0));
 }

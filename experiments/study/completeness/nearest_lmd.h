@@ -21,7 +21,8 @@ class NearestLmds {
  public:
   /// @param scene     a pair
   /// @param by_design whether closed meshes bound solids: rounding alone folds their needles. Else
-  ///                  they must not intersect themselves: folds have no outer side.
+  ///                  they must not intersect themselves: folds have no outer side. Nor may
+  ///                  triangles without area close T junctions, which loading flips.
   explicit NearestLmds(const Scene& scene, bool by_design = false);
   /// Nothing where the meshes are no solids, nearer than the tolerance or, less that, beyond the
   /// cutoff, or where the nearest pair lies inside one or no solid is behind an end of it.

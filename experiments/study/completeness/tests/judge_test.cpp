@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/shapes.h>
+#include <lmdbench/mesh/flat_triangles.h>
 #include <lmdbench/mesh/flaws.h>
 
 #include <gmock/gmock.h>
@@ -162,6 +163,22 @@ TEST_F(JudgeTest, AsksForTheNearestPairOfSolidsThatAreApart) {
   for (const double thickness : {0.0, 1e-9}) {  // a plate that rounding flattened has no solid
     const Scene plate{body_of(make_box(Vec3(0.5, 0.5, thickness))), scene_.fixed, 1.0};
     EXPECT_EQ(NearestLmds(plate, true).at({Vec3(1.0, 0.1, 0.2)}, 1.0).has_value(), thickness > 0.0);
+  }
+}
+
+TEST_F(JudgeTest, AsksForNoNearestPairOfTJunctionsThatLoadingFlips) {
+  TriangleMesh box = make_box(Vec3::Constant(0.5));
+  const auto [a, b, c] = box.triangles.front();
+  const auto m = static_cast<std::int32_t>(box.vertices.size());
+  box.vertices.push_back(
+      0.5 * (box.vertices[static_cast<std::size_t>(a)] + box.vertices[static_cast<std::size_t>(b)]));
+  box.triangles.front() = {a, m, c};
+  box.triangles.push_back({m, b, c});
+  box.triangles.push_back({a, b, m});
+  for (const bool is_loaded : {false, true}) {
+    if (is_loaded) flip_flat_triangles(box);
+    const Scene scene{std::make_shared<const Body>("box", build_surface(box)), scene_.fixed, 1.0};
+    EXPECT_EQ(NearestLmds(scene, true).at({Vec3(1.0, 0.1, 0.2)}, 1.0).has_value(), is_loaded);
   }
 }
 
