@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lmdbench::completeness {
 namespace {
@@ -22,12 +23,15 @@ double points_apart(const Lmd& a, const Lmd& b) {
   return std::max((a.point_moving - b.point_moving).norm(), (a.point_fixed - b.point_fixed).norm());
 }
 
-/// Of several of one pair the nearest.
+/// Of several of one pair the nearest, at one place that of the most equal distance.
 const Lmd* find_pair(const LmdSet& set, const Lmd& wanted) {
   const Lmd* nearest = nullptr;
+  const auto apart = [&](const Lmd& lmd) {
+    return std::pair(points_apart(lmd, wanted), std::abs(lmd.distance - wanted.distance));
+  };
   for (const Lmd& lmd : set)
     if (same_feature_pair(lmd, wanted) && lmd.intersecting == wanted.intersecting &&
-        (nearest == nullptr || points_apart(lmd, wanted) < points_apart(*nearest, wanted)))
+        (nearest == nullptr || apart(lmd) < apart(*nearest)))
       nearest = &lmd;
   return nearest;
 }

@@ -261,7 +261,7 @@ void compare_group(const ResultReader& base, const ResultReader& candidate, cons
   for (const std::string& dataset : deterministic_datasets(base, group)) {
     if (allowed(dataset, options) || is_time(candidate, group, dataset)) continue;
     if (!same_steps && is_of_true_steps(dataset)) continue;
-    if (!candidate.has(group + "/" + dataset) && left_out(candidate, dataset)) continue;
+    if (!candidate.has(fmt::format("{}/{}", group, dataset)) && left_out(candidate, dataset)) continue;
     if (auto difference = DatasetPair(base, candidate, method, group, dataset).compare(options))
       differences.push_back(std::move(*difference));
   }

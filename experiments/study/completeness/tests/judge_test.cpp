@@ -83,6 +83,14 @@ TEST_F(JudgeTest, PartsOfOnePairAreLmdsOfTheirOwn) {
   EXPECT_EQ(judge_now(reported).wrong_poses, 1u) << "the other part, twice";
 }
 
+TEST_F(JudgeTest, TwoOfOnePairAtOnePlaceAreToldByTheirDistances) {
+  Lmd other = truth_[2];
+  other.distance += 1e-15;
+  other.direction = -other.direction;
+  truth_.push_back(other);
+  EXPECT_EQ(judge_now(truth_).wrong_poses, 0u) << objection_;
+}
+
 TEST_F(JudgeTest, TellsWhatIntersectsFromAnLmdOfTheSameFeatures) {
   Lmd touching = truth_[1];
   touching.intersecting = true;

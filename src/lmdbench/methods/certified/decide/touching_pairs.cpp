@@ -496,9 +496,11 @@ std::optional<RestingRegions> TouchingPairs::find_chain_at_rest(const Frame& fra
   if (touching < 0) return std::nullopt;
   // Of a triangle beside the chain, with no corner on it, no contact of the chain tells; nor of one
   // that leaves an end of the chain along the plane, which it may meet farther on.
-  const auto [begin, end] = segment_of(wall.side, touching);
-  const Vec3 along = (end - begin).normalized();
-  const auto beyond_chain = [&](const Vec3& p) { return std::max(along.dot(begin - p), along.dot(p - end)); };
+  const Segment ends = segment_of(wall.side, touching);
+  const Vec3 along = (ends[1] - ends[0]).normalized();
+  const auto beyond_chain = [&](const Vec3& p) {
+    return std::max(along.dot(ends[0] - p), along.dot(p - ends[1]));
+  };
   const auto is_at_chain_alone = [&](std::int32_t v) {
     const Vec3 p = wall.side.vertex(v);
     const double height = plane.height(p);
@@ -510,13 +512,13 @@ std::optional<RestingRegions> TouchingPairs::find_chain_at_rest(const Frame& fra
                              is_at_chain_alone))
       return std::nullopt;
   const auto flat = [&](const Vec3& p) { return base.shape->frame.flat(base.side.point_to_surface(p)); };
-  const SegmentPart part = ConvexPolygon(base.shape->hull).part_of(flat(begin), flat(end), rounding);
+  const SegmentPart part = ConvexPolygon(base.shape->hull).part_of(flat(ends[0]), flat(ends[1]), rounding);
   if (!(part.begin < part.end)) return std::nullopt;
   const FeatureId chain{FeatureKind::EDGE, touching}, region{FeatureKind::FACE, base.region};
   RestingRegions resting = wall.side.is_moving ? RestingRegions{wall.region, base.region, chain, region, {}}
                                                : RestingRegions{base.region, wall.region, region, chain, {}};
   for (const double share : {part.begin, part.end})
-    resting.shared_W.extend(Vec3(begin + share * (end - begin)));
+    resting.shared_W.extend(Vec3(ends[0] + share * (ends[1] - ends[0])));
   return resting;
 }
 
