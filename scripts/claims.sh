@@ -22,6 +22,8 @@ PATHS=20
 APPROACHES=5 # of 6 s each
 PYTHON="$(find_python h5py matplotlib numpy)"
 mkdir -p "$OUT" "$PATH_FOLDER"
+[[ -n ${LMDBENCH_BUILD:-} ]] || build_preset release
+build_meshes "$BUILD/lmdbench"
 
 # The hard contact's specification with other seeds, its approaches one after another.
 make_paths() {

@@ -89,16 +89,15 @@ changed_sources() {
   done | sort -u
 }
 
-# tidy FOLDER [-DOPTION=VALUE...] -- [ARGUMENT...] PATTERN...: sources of the tree configured in
-# build/FOLDER whose names match; not tests and benchmarks, as the rules are for code that ships.
+# tidy FOLDER UNITY [ARGUMENT...] PATTERN...: sources whose names match, in the tree configured in
+# build/FOLDER, with ON those of a library at once; not tests and benchmarks, as the rules are for
+# code that ships.
 tidy() {
-  local folder="$ROOT/build/$1" options=()
-  shift
-  while [[ $1 != -- ]]; do options+=("$1") && shift; done
-  shift
+  local folder="$ROOT/build/$1" unity="$2"
+  shift 2
   # A configured tree with its generated header is enough; it must have no precompiled headers, as
   # clang cannot read GCC's.
-  (cd "$ROOT" && cmake --preset develop -B "$folder" ${options[@]+"${options[@]}"} && cmake --build "$folder" --target lmdbench_git_state) >/dev/null ||
+  (cd "$ROOT" && cmake --preset develop -B "$folder" -DLMDBENCH_UNITY="$unity" && cmake --build "$folder" --target lmdbench_git_state) >/dev/null ||
     die "$EXIT_ENVIRONMENT" "the tree cannot be configured (remedy: ./scripts/setup.sh)"
   # The compile commands are GCC's; clang may not know all warnings.
   if run-clang-tidy -quiet -extra-arg=-Wno-unknown-warning-option -j "$JOBS" -p "$folder" "$@" >"$folder/clang-tidy.log" 2>/dev/null; then
@@ -112,12 +111,12 @@ tidy() {
 }
 # The files of a library at once, by which headers are read a fifth as often; what is only asked of
 # a whole source (using-declarations that nobody needs) tidy_changed asks.
-tidy_all() { tidy tidy -DLMDBENCH_UNITY=ON -- -checks=-bugprone-suspicious-include /src/lmdbench/; }
+tidy_all() { tidy tidy ON -checks=-bugprone-suspicious-include /src/lmdbench/; }
 tidy_changed() {
   local files
   mapfile -t files < <(changed_sources)
   ((${#files[@]} == 0)) && say "clang-tidy: nothing to check" && return 0
-  tidy develop -- "${files[@]/%/\$}"
+  tidy develop OFF "${files[@]/%/\$}"
 }
 
 status=0

@@ -25,11 +25,12 @@ PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages
   shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
 # What searches in generated scenes include,
 SEARCHED=(CMakeLists.txt src experiments/{judge,support,study/completeness}
-  experiments/study/{CMakeLists.txt,main.cpp,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
-# but rooms and headers that make no set: commands, drivers, numbers, files of results, interfaces;
-# and what reads meshes and paths, which those searches make themselves.
-ABOVE_METHODS=(catalogue/'*_file.*' cli comparison drivers library lmdbench.h manual metrics motion phantom plugin prepare probes python
-  realtime result result_file run stability sweep view)
+  experiments/study/{CMakeLists.txt,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
+# but rooms and files that make no set: commands, drivers, numbers, files of results, interfaces,
+# what is told of meshes; and what reads meshes and paths, which those searches make themselves.
+ABOVE_METHODS=(src/lmdbench/{catalogue/'*_file.*',cli,comparison,drivers,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
+  src/lmdbench/{phantom,plugin,prepare,probes,python,realtime,result,result_file,run,stability,sweep,view} experiments/judge/main.cpp
+  experiments/support/'program.*')
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
 FUZZ_MINUTES="${LMDBENCH_FUZZ_MINUTES:-360}"
@@ -61,7 +62,7 @@ commit_of() {
   local -a read=(.) unread=(':!results' ':!*.md')
   case $1 in
   hostile | parts | solids | shapes | metamorphic | rest | generated)
-    read=("${SEARCHED[@]}") unread+=("${ABOVE_METHODS[@]/#/:!src/lmdbench/}" ':!*_test.cpp')
+    read=("${SEARCHED[@]}") unread+=("${ABOVE_METHODS[@]/#/:!}" ':!*_test.cpp')
     ;;
   completeness | fuzz-* | reference)
     unread+=(':!*_test.cpp' ':!scripts/mutants.txt')

@@ -17,5 +17,6 @@ int main(int argc, char** argv) {
   exact::add_flat(app, chosen);
   exact::add_rest(app, chosen);
   exact::add_accuracy(app, chosen);
+  experiments::refuse_nothing(app);
   return experiments::run_program(app, argc, argv, [&chosen] { return chosen(); });
 }

@@ -6,8 +6,6 @@
 #include <study/studies.h>
 #include <support/program.h>
 
-#include <limits>
-
 /// lmdbench-study: questions beyond one experiment. Markdown on standard output, numbers in the
 /// file of --json; exit code 1 when a method breaks a promise.
 int main(int argc, char** argv) {
@@ -39,14 +37,9 @@ int main(int argc, char** argv) {
   study::add_roles(app, chosen);
   study::add_worlds(app, chosen);
   for (CLI::App* command : app.get_subcommands({}))
-    for (CLI::Option* option : command->get_options()) {
-      // An empty list is none.
-      if (option->get_default_str() == "[]") option->default_str("");
-      // A study of nothing would find nothing wrong. An empty text is read as 0.
-      for (const char* count : {"--poses", "--frames", "--repetitions"})
-        if (option->get_name() == count)
-          option->check(CLI::Range(1, std::numeric_limits<int>::max(), "POSITIVE"));
-    }
+    for (CLI::Option* option : command->get_options())
+      if (option->get_default_str() == "[]") option->default_str("");  // An empty list is none.
+  experiments::refuse_nothing(app);
   return experiments::run_program(app, argc, argv, [&] {
     if (!pieces) return chosen.work();
     fmt::print("{}\n", study::pieces_json(app, chosen));

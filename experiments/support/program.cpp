@@ -10,6 +10,7 @@
 
 #include <exception>
 #include <iostream>
+#include <limits>
 
 namespace lmdbench::experiments {
 
@@ -59,13 +60,22 @@ bool& reports_name_node() {
   return name_node;
 }
 
+void refuse_nothing(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({}))
+    for (CLI::Option* option : command->get_options())
+      // An empty text is read as 0.
+      for (const char* count : {"--poses", "--frames", "--repetitions"})
+        if (option->get_name() == count)
+          option->check(CLI::Range(1, std::numeric_limits<int>::max(), "POSITIVE"));
+}
+
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run) {
   // Checks of a command while it is read throw our errors, too.
   return report_errors([&] {
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      return app.exit(error);
+      return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::USAGE);
     }
     if (reports_name_node()) watch();
     return run();

@@ -42,8 +42,12 @@ void add_study_options(CLI::App& app, StudyChoice& choice);
 /// @return the result of `run`, or the exit code of its error (error.h)
 int report_errors(const std::function<int()>& run);
 
+/// Commands take no 0 as their --poses, --frames and --repetitions: of nothing they would find
+/// nothing wrong.
+void refuse_nothing(CLI::App& app);
+
 /// Parses the command line and runs the study.
-/// @return the exit code, as `report_errors`
+/// @return the exit code, as `report_errors`; 2 for what the command line does not take
 int run_program(CLI::App& app, int argc, const char* const* argv, const std::function<int()>& run);
 
 /// Whether reports get a "where": their node and other load on it (`NodeWatch`, from this call on).

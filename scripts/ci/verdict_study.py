@@ -26,6 +26,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 sys.path.insert(0, os.path.join(HERE, "..", "figures"))
 
+import interpreter  # noqa: E402, F401  (in the figures' folder; chooses one that has what follows)
 import intervals  # noqa: E402
 import outcome  # noqa: E402
 import regression  # noqa: E402

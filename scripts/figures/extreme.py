@@ -35,7 +35,7 @@ def not_a_number(method):
     count = sum(int(np.count_nonzero(~np.isfinite(method.read(name)))) for name in ALWAYS)
     count += sum(int(np.count_nonzero(~np.isfinite(method.read(name)[with_lmds]))) for name in WITH_LMDS)
     truth = truth_of(method)
-    return count + (int(np.count_nonzero(~np.isfinite(truth.force_error))) if truth else 0)
+    return count + (int(np.count_nonzero(~np.isfinite(truth.force_error[truth.force_is_known]))) if truth else 0)
 
 
 def frame_times(method):

@@ -336,6 +336,7 @@ class Truth:
         self.recall = method.read(group + "recall")
         self.recall_adjacent = method.read(group + "recall_adjacent")
         self.force_error = method.read(group + "force_error")
+        self.force_is_known = ~without_direction(result, reference)
 
     def found_in(self, shares, chosen):
         """Share of the true LMDs of the chosen probed frames that the method has; NaN when there are none, or it promises no set."""
@@ -357,6 +358,13 @@ def no_truth(result):
     return "the path ends before the first probed frame" if asked else "no truth probe"
 
 
+def without_direction(result, reference):
+    """(K) whether the probed frame has a true LMD without a direction, so that no force is the true one."""
+    if result.has(f"{reference}/contact_without_direction"):
+        return result.read(f"{reference}/contact_without_direction") > 0
+    return result.read(f"{reference}/minimum_distance") == 0.0  # before 1.0: triangles that touch as well
+
+
 def reference_force(method):
     """(K) frames and (K) length of the true rendered force under a method's law, at its poses [N]; empty without a truth probe."""
     group = method.reference()
@@ -364,11 +372,7 @@ def reference_force(method):
     if not method.result.has(dataset):
         return np.empty(0, dtype=int), np.empty(0)
     force = np.linalg.norm(method.result.read(dataset), axis=1)
-    if method.result.has(f"{group}/contact_without_direction"):
-        without = method.result.read(f"{group}/contact_without_direction") > 0
-    else:  # results before 1.0 do not tell triangles that touch from those that intersect
-        without = method.result.read(f"{group}/minimum_distance") == 0.0
-    force[without] = np.nan  # no direction, so no force is the true one
+    force[without_direction(method.result, group)] = np.nan  # results before 1.0 have a number
     return method.result.read(f"{group}/frame").astype(int), force
 
 

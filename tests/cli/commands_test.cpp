@@ -42,6 +42,7 @@ TEST(Program, HelpAndVersionGoToStandardOutput) {
     EXPECT_THAT(help.out, HasSubstr("Usage: ")) << command;
     EXPECT_THAT(help.err, IsEmpty()) << command;
     EXPECT_THAT(help.out, HasSubstr("\nExamples:\n  lmdbench ")) << command;
+    EXPECT_THAT(help.out, HasSubstr("\nExit codes: 0 done;")) << command;
   }
   const Outcome version = lmdbench("--version");
   EXPECT_EQ(version.code, 0);

@@ -78,7 +78,8 @@ TEST(Registry, EveryCounterHasOneName) {
       EXPECT_LT(counter.index, method.counters.size()) << method.name << " " << counter.name;
       EXPECT_FALSE(counter.summary.empty()) << counter.name;
     }
-    EXPECT_LE(method.counters.size(), WorkCounters::CAPACITY) << method.name;
+    // The last three are a scene's (scene/scene_search.cpp).
+    EXPECT_LE(method.counters.size(), WorkCounters::CAPACITY - 3) << method.name;
     EXPECT_EQ(method.global_counters().empty(), !method.tracks_locally) << method.name;
   }
 }

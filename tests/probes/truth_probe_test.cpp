@@ -114,6 +114,25 @@ TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
   EXPECT_NEAR(lost[0].force_error, sideways.y(), 1e-6);
 }
 
+TEST(TruthProbe, WhereTrianglesIntersectNoForceIsTheTrueOne) {
+  const DriverInput input = approach({0.04, -0.1, 0.04});
+  const Scene scene = facing_spheres();
+  const auto truth = probe_truth(scene, input, PROFILE, sum_law(), {0, 1}, {});
+  const auto linear = static_cast<std::size_t>(ForceLaw::LINEAR);
+  EXPECT_NEAR(truth[0].force[linear].x(), 2.0 * 0.2, 1e-6);
+  EXPECT_TRUE(std::isnan(truth[0].force_jump[linear]));
+  EXPECT_GT(truth[1].contact_without_direction(), 0);
+  for (const Vec3& unknown : {truth[1].force[linear], truth[1].torque[linear]})
+    EXPECT_TRUE(unknown.array().isNaN().all()) << unknown;
+  EXPECT_TRUE(std::isnan(truth[1].force_jump[linear]));
+  const auto rows = compare_with_truth(
+      truth, record_of({truth[0].lmds, truth[1].lmds, truth[0].lmds}, {3, Vec3(Vec3::UnitX())}),
+      ForceLaw::LINEAR, scene);
+  EXPECT_NEAR(rows[0].force_error, 1.0 - truth[0].force[linear].x(), 1e-6);
+  EXPECT_TRUE(std::isnan(rows[1].force_error)) << rows[1].force_error;
+  EXPECT_TRUE(std::isnan(rows[1].force_angle_error)) << rows[1].force_angle_error;
+}
+
 TEST(TruthProbe, StopsWhenAsked) {
   const DriverInput input = approach({0.04, 0.02, 0.03});
   EXPECT_THROW(probe_truth(facing_spheres(), input, PROFILE, sum_law(), {0, 1},

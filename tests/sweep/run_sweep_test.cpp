@@ -56,6 +56,7 @@ TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
     const std::string path = "/points/" + std::string(number.name);
     EXPECT_EQ(file.shape(path), std::vector<std::size_t>{3}) << path;
     EXPECT_FALSE(file.text_attribute(path, "units").empty()) << path;
+    EXPECT_EQ(file.integer_attribute(path, "made_of_times") == 1, number.made_of_times) << path;
   }
   EXPECT_TRUE(on_front(sweep, result, 2)) << "nothing has less error than none";
 
@@ -138,6 +139,14 @@ TEST(PointNumbers, HaveNamesOfTheirOwn) {
   std::set<std::string_view> names;
   for (const PointNumber& number : point_numbers())
     EXPECT_TRUE(names.insert(number.name).second) << number.name;
+}
+
+TEST(PointNumbers, SayWhichAreMadeOfTimes) {
+  const std::set<std::string_view> times{"processor_share", "search_share", "frames_late"};
+  for (const PointNumber& number : point_numbers()) {
+    const bool is_time = number.units == "s" && number.name != "seconds_in_contact";
+    EXPECT_EQ(number.made_of_times, is_time || times.contains(number.name)) << number.name;
+  }
 }
 
 }  // namespace

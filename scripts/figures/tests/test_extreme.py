@@ -30,6 +30,16 @@ class Extreme(Scratch):
             self.assertIn("| original | 0 of 1 | 1 | 1 | 0 | 90.0 (bad) | 1 (bad) |", text)
             self.assertIn("not judged: no true LMD in a probed frame", text)
 
+    def test_no_value_is_missing_where_no_force_is_the_true_one(self):
+        file = self.result("cut")
+        with h5py.File(file, "a") as h5:
+            h5["methods/improved/truth/force_error"][3] = np.nan
+            h5["reference/contact_without_direction"][3] = 1
+        self.assertIn("| improved | 1 of 1 |", self.printed(extreme.main, file))
+        with h5py.File(file, "a") as h5:
+            h5["methods/improved/truth/force_error"][4] = np.nan
+        self.assertIn("1 values missing", self.printed(extreme.main, file))
+
     def test_the_missing_probe_is_named(self):
         file = self.result("blind", truth_stride=0)
         text = self.printed(extreme.main, file, "--check", code=1)

@@ -21,7 +21,7 @@ constexpr std::array<CommandExamples, 18> EXAMPLES{{
       "lmdbench init peg.stl hole.stl --unit mm --contact --out my"}},
     {"query",
      {"lmdbench query --moving peg.stl --fixed hole.stl --cutoff 0.002 --method certified",
-      "lmdbench query --moving meshes/bunny-5k.off --fixed meshes/bunny-16k.off --cutoff 0.02 --poses "
+      "lmdbench query --moving blob --fixed torus --unit 0.05371,0.09468 --cutoff 0.002 --poses "
       "paths/shapes.tum --json"}},
     {"compare",
      {"lmdbench compare results/before.h5 results/after.h5",

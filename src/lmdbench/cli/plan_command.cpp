@@ -32,7 +32,7 @@ void add_plan_command(CLI::App& app) {
   command->add_flag(
       "--schema", options->schema,
       "print the JSON Schema of experiment files, with the options of every method, and no plan");
-  command->footer(methods_help());
+  command->footer(fmt::format("{}\n{}", methods_help(), command->get_footer()));
   command->callback([options] {
     if (options->schema) {
       fmt::print("{}\n", experiment_schema().dump(2));

@@ -126,7 +126,7 @@ void add_query_command(CLI::App& app, int& exit_status) {
       ->capture_default_str();
   command->add_option("--option", options->options, "an option of the method: key=value; repeatable")
       ->allow_extra_args(false);
-  command->footer(methods_help());
+  command->footer(fmt::format("{}\n{}", methods_help(), command->get_footer()));
   command->add_option(
       "--poses", options->poses,
       "TUM trajectory of the moving mesh, - for standard input; one identity pose without it");

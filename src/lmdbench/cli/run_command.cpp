@@ -116,7 +116,7 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
   command->add_flag("--json", options->json, "summary as JSON");
   command->add_flag("--resume", options->resume,
                     "go on with what an interrupted run of the same experiment left, if anything");
-  command->footer(methods_help());
+  command->footer(fmt::format("{}\n{}", methods_help(), command->get_footer()));
   command->callback([options, argv] { run_to_file(*options, argv); });
 }
 

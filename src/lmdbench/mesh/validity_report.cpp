@@ -37,8 +37,7 @@ std::vector<std::string> findings(const ValidityReport& report) {
   if (report.outward == false)
     sentences.push_back(
         fmt::format("inside out: the triangles' normals point into the solid (volume {:.4g}), so that "
-                    "nothing outside of it "
-                    "is a contact, for no method and not for the truth ({})",
+                    "nothing outside of it is a contact in truth ({})",
                     *report.volume, TURN_REMEDY));
   if (!report.closed)
     sentences.push_back(fmt::format("open: {} in {}",

@@ -73,7 +73,6 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     const TruthFrame& here = truth[i];
     const auto frame = static_cast<std::size_t>(here.frame);
     const FrameRecord& now = record.frames[frame];
-    const bool is_known = here.contact_without_direction() == 0;  // else no force is the true one
     if (frame + 1 < record.frames.size()) {
       const FrameRecord& next = record.frames[frame + 1];
       const bool jumps = (next.force - now.force).norm() > JUMP_SHARE * maximum_force;
@@ -97,6 +96,7 @@ StepNumbers count_steps(const MethodRecord& record, ForceLaw law, const std::vec
     }
     if (!in_contact[frame]) continue;
     const double true_length = here.force[index].norm();
+    const bool is_known = !std::isnan(true_length);
     force.push_back(now.force.norm());
     if (is_known) true_force.push_back(true_length);
     count.push_back(static_cast<double>(now.lmd_count));

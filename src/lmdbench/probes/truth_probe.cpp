@@ -27,8 +27,6 @@ double force_angle(const Vec3& a, const Vec3& b) {
 
 std::array<double, FORCE_LAW_COUNT> change_of_force(const TruthFrame& here, const TruthFrame& next) {
   std::array<double, FORCE_LAW_COUNT> change{};
-  change.fill(UNSET);
-  if (here.contact_without_direction() > 0 || next.contact_without_direction() > 0) return change;
   for (std::size_t law = 0; law < FORCE_LAW_COUNT; ++law)
     change[law] = (next.force[law] - here.force[law]).norm();
   return change;
@@ -36,7 +34,7 @@ std::array<double, FORCE_LAW_COUNT> change_of_force(const TruthFrame& here, cons
 
 namespace {
 
-/// The forces of the frame's set.
+/// The forces of the frame's set; NaN where triangles intersect, as no force is the true one.
 /// @param contacts that have searched it
 void render_laws(TruthFrame& here, ContactFinder& contacts, const Scene& scene, const DriverInput& input,
                  ForceProfile profile, const Pose& X_WM) {
@@ -52,6 +50,11 @@ void render_laws(TruthFrame& here, ContactFinder& contacts, const Scene& scene, 
           render_movers(contacts, scene, X_WM, *input.motion.movers, profile, input.device),
           std::back_inserter(here.movers[index]), &MoverFrame::force);
   }
+  if (here.contact_without_direction() == 0) return;
+  const Vec3 none = Vec3::Constant(UNSET);
+  here.force.fill(none);
+  here.torque.fill(none);
+  for (std::vector<Vec3>& forces : here.movers) std::ranges::fill(forces, none);
 }
 
 }  // namespace

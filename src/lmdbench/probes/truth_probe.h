@@ -19,18 +19,18 @@
 /// next, outside the timed frames, and every method is compared with it. Force errors compare
 /// rendered forces (clipped by the same device) under the method's own law: they show the effect of
 /// the LMD set, not of the law. The aggregation is the profile's, also for a method whose LMDs can
-/// only be summed. Where triangles intersect, a true LMD has no direction and adds no force, while
-/// a moving method keeps its last direction (E12): force errors there mean little.
+/// only be summed. Where triangles intersect, a true LMD has no direction, and no force is the true
+/// one: forces, torques and errors of that frame are NaN.
 namespace lmdbench {
 
-/// Truth at one frame.
+/// Truth at one frame. Forces are NaN where none is the true one.
 struct TruthFrame {
   std::int64_t frame = 0;
   LmdSet lmds;
   std::array<Vec3, FORCE_LAW_COUNT> force = no_forces();  ///< Rendered, under each law [N].
   /// Torque on the moving mesh before clipping, under each law [N m].
   std::array<Vec3, FORCE_LAW_COUNT> torque = no_forces();
-  /// |force at the next frame - force| [N]; NaN where no force is the true one in either frame.
+  /// |force at the next frame - force| [N].
   std::array<double, FORCE_LAW_COUNT> force_jump{};
   ForcesByLaw movers;  ///< Of movers, the moving mesh first [N].
 

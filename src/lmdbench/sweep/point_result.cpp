@@ -40,12 +40,13 @@ std::vector<double> from_nanoseconds(const Json& values) {
 const std::vector<PointNumber>& point_numbers() {
   static const std::vector<PointNumber> all = [] {
     std::vector<PointNumber> infos;
-    const auto add = [&](const auto& numbers) {
-      for (const auto& number : numbers) infos.push_back({number.name, number.units, number.long_name});
+    const auto add = [&](const auto& numbers, auto made_of_times) {
+      for (const auto& number : numbers)
+        infos.push_back({number.name, number.units, number.long_name, made_of_times(number)});
     };
-    add(summary_numbers());
-    add(step_numbers());
-    add(time_numbers());
+    add(summary_numbers(), [](const auto& number) { return number.made_of_times(); });
+    add(step_numbers(), [](const auto&) { return false; });  // with seconds of the path
+    add(time_numbers(), [](const auto&) { return true; });
     return infos;
   }();
   return all;

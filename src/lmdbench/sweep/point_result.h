@@ -20,6 +20,7 @@ struct PointNumber {
   std::string_view name;  ///< Of the dataset and the JSON key; ends in its unit where it has one.
   std::string_view units;
   std::string_view long_name;
+  bool made_of_times;  ///< Different in every sweep.
 };
 
 /// Adds the numbers of a table that are not NaN, by their names.

@@ -111,15 +111,19 @@ void write_sweep(ResultWriter& writer, const Sweep& sweep, const SweepResult& re
     writer.write({path, std::string(units), std::string(long_name)}, std::span<const double>(values),
                  {values.size()});
   };
-  for (const PointNumber& number : point_numbers())
-    column("/points/" + std::string(number.name), number.units, number.long_name,
+  for (const PointNumber& number : point_numbers()) {
+    const std::string path = "/points/" + std::string(number.name);
+    column(path, number.units, number.long_name,
            [&](const PointResult& point) { return point.number(number.name); });
+    if (number.made_of_times) writer.attribute(path, "made_of_times", std::int64_t{1});
+  }
   std::vector<double> fronts;
   for (std::size_t i = 0; i < result.points.size(); ++i)
     fronts.push_back(on_front(sweep, result, i) ? 1.0 : 0.0);
   writer.write({"/points/on_front", "1",
                 "1 where no point of the problem is no worse in force error and run time and better in one"},
                std::span<const double>(fronts), {fronts.size()});
+  writer.attribute("/points/on_front", "made_of_times", std::int64_t{1});
   column("/points/maximum_force_n", "N", "F_max of one LMD, the scale of force errors",
          [&](const PointResult& point) {
            return sweep.points[static_cast<std::size_t>(&point - result.points.data())]
