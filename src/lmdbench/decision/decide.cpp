@@ -248,14 +248,13 @@ class Decision {
     const Vec3 u = facing();
     return direction_about(u.isZero(LEAST_FACING) ? Vec3::UnitX() : Vec3(u.normalized()), 1.0, tilt);
   }
-  /// Sum of the pseudo-normals of two corners or chains, or that of the one that has an outer side.
+  /// Sum of the outer sides of two corners or chains, or of their pseudo-normals where neither has one.
   Vec3 facing() const {
-    const FeatureId f = moving_.shape.lead_of(f_), g = fixed_.shape.lead_of(g_);
-    const bool of_f = moving_.surface.has_outer_side(f), of_g = fixed_.surface.has_outer_side(g);
-    Vec3 sum = Vec3::Zero();
-    if (of_f || !of_g) sum += moving_.direction(moving_.surface.pseudo_normal(f));
-    if (of_g || !of_f) sum -= fixed_.direction(fixed_.surface.pseudo_normal(g));
-    return sum;
+    const Vec3 f = moving_.shape.outer_side(moving_.surface, f_),
+               g = fixed_.shape.outer_side(fixed_.surface, g_);
+    if (!f.isZero(0.0) || !g.isZero(0.0)) return moving_.direction(f) - fixed_.direction(g);
+    return moving_.direction(moving_.surface.pseudo_normal(moving_.shape.lead_of(f_))) -
+           fixed_.direction(fixed_.surface.pseudo_normal(fixed_.shape.lead_of(g_)));
   }
   std::optional<KnownDirection> direction_about(const Vec3& u, double error, double tilt = 0.0) const {
     // A smaller error moves nothing by more than the tolerance over the meshes.

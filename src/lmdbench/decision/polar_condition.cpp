@@ -109,8 +109,9 @@ std::optional<KnownDirection> common_direction(const ShapeSide& moving, const Fe
 }
 
 bool admits(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {
-  return !leads_down(side, feature, u_W, slack) &&
-         is_outer(side.surface, side.shape.lead_of(feature), side.direction_to_surface(u_W));
+  if (leads_down(side, feature, u_W, slack)) return false;
+  const Vec3 outer = side.shape.outer_side(side.surface, feature);
+  return outer.isZero(0.0) || side.direction_to_surface(u_W).dot(outer) > 0.0;
 }
 
 bool leads_down(const ShapeSide& side, const FeatureId& feature, const Vec3& u_W, const PolarSlack& slack) {

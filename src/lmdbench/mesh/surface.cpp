@@ -125,11 +125,6 @@ void derive_flags(Surface& surface) {
 /// such edges and corners.
 constexpr double CANCELLED = 1e-12;
 
-/// @param weight sum of the weights of the unit vectors in the sum
-Vec3 direction_of_sum(const Vec3& sum, double weight) {
-  return sum.norm() > CANCELLED * weight ? Vec3(sum.normalized()) : Vec3(Vec3::Zero());
-}
-
 Vec3 edge_pseudo_normal(const Surface& surface, std::int32_t edge) {
   Vec3 sum = Vec3::Zero();
   for (const std::int32_t triangle : surface.adjacency.edge_triangles[edge])
@@ -147,6 +142,10 @@ std::size_t bytes_of(const std::vector<bool>& flags) {
 }
 
 }  // namespace
+
+Vec3 direction_of_sum(const Vec3& sum, double weight) {
+  return sum.norm() > CANCELLED * weight ? Vec3(sum.normalized()) : Vec3(Vec3::Zero());
+}
 
 Vec3 vertex_pseudo_normal(const Surface& surface, std::int32_t vertex) {
   Vec3 sum = Vec3::Zero();

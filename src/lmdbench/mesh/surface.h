@@ -85,6 +85,10 @@ struct Surface {
 /// @pre every index is within the vertex array and every coordinate is finite (import checks both)
 Surface build_surface(TriangleMesh mesh);
 
+/// The direction of a sum of unit normals; zero where they cancel, as what is left is rounding.
+/// @param weight  sum of the weights of the unit vectors in the sum
+Vec3 direction_of_sum(const Vec3& sum, double weight);
+
 /// The angle-weighted pseudo-normal of a vertex, from the face normals and the vertices round it.
 Vec3 vertex_pseudo_normal(const Surface& surface, std::int32_t vertex);
 

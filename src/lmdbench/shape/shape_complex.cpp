@@ -143,6 +143,18 @@ bool ShapeComplex::is_plain_chain(const Surface& surface, std::int32_t chain) co
          });
 }
 
+Vec3 ShapeComplex::outer_side(const Surface& surface, const FeatureId& feature) const {
+  const FeatureId lead = lead_of(feature);
+  if (!surface.is_one_fan(lead)) return Vec3::Zero();
+  if (lead.kind != FeatureKind::EDGE) return surface.pseudo_normal(lead);
+  const auto triangles = surface.adjacency.edge_triangles[lead.index];
+  Vec3 sum = Vec3::Zero();
+  for (const std::int32_t t : triangles)
+    if (const std::int32_t region = region_of(t); region >= 0)
+      sum += regions.planes[static_cast<std::size_t>(region)].normal;
+  return direction_of_sum(sum, static_cast<double>(triangles.size()));
+}
+
 void ShapeComplex::append_corner_wings(const Surface& surface, std::int32_t vertex) {
   const auto position = [&](std::int32_t v) -> const Vec3& {
     return surface.mesh.vertices[static_cast<std::size_t>(v)];
@@ -218,18 +230,20 @@ void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain
   for (const std::int32_t t : surface.adjacency.edge_triangles[edge]) {
     const std::int32_t region = region_of(t);
     const RegionShape* shape = region >= 0 ? shapes.of_region(region) : nullptr;
-    for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(t)]) {
-      if (corner == edge_ends[0] || corner == edge_ends[1]) continue;
-      const Vec3 to_corner = position(corner) - p;
+    const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (corners[k] == edge_ends[0] || corners[k] == edge_ends[1]) continue;
+      const Vec3 to_corner = position(corners[k]) - p;
       const Vec3 across = to_corner - to_corner.dot(along) * along;
       if (shape == nullptr) {
         wings_.push_back(across);
         continue;
       }
-      // Of the region's plane, because a small triangle's is inaccurate.
+      // Of the region's plane, because a small triangle's is inaccurate: to the left of the side, as
+      // the triangle's corner may be on the wrong one.
+      const double run = (position(corners[(k + 2) % 3]) - position(corners[(k + 1) % 3])).dot(along);
       const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
-      Vec3 inwards = n.cross(along).normalized();
-      if (inwards.dot(across) < 0.0) inwards = -inwards;
+      const Vec3 inwards = n.cross(run < 0.0 ? Vec3(-along) : along).normalized();
       wings_.push_back(std::max(across.norm(), shape->depth_along(p, inwards)) * inwards);
     }
   }

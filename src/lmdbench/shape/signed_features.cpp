@@ -102,7 +102,7 @@ bool SignedFeatures::has_index(const FeatureId& shape_feature) const {
 void SignedFeatures::add_chain(const Surface& surface, const ShapeComplex& shape, std::int32_t index) {
   const std::int32_t edge = shape.lead_of_chain(index);
   const auto triangles = surface.adjacency.edge_triangles[edge];
-  if (!surface.has_outer_side({FeatureKind::EDGE, edge}) || triangles.size() != 2) return;
+  if (shape.outer_side(surface, {FeatureKind::EDGE, index}).isZero(0.0) || triangles.size() != 2) return;
   const auto& ends = shape.ends_of_chain(index);
   const auto at = [&](std::int32_t v) -> const Vec3& {
     return surface.mesh.vertices[static_cast<std::size_t>(v)];

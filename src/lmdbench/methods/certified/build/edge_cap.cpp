@@ -25,9 +25,6 @@ constexpr double LEAST_HEIGHT = 1e-12;
 constexpr double SPREAD_OF_SLACK = 1.25;
 /// Edges that bend by more (a sine) are decided without constraints.
 constexpr double CLEAR_BEND = 1e-3;
-/// Least component of a reflex chain's outer side along both normals, of 5e-4 for their mean: more
-/// than all slack. Needles within a region's tolerance may have any normal, which counts there.
-constexpr double LEAST_OUTER = 1e-4;
 /// Edges of triangles of more than so many heights in length need the constraints too.
 constexpr double FLAT = 10.0;
 
@@ -144,9 +141,7 @@ std::optional<PolarCap> cap_of_chain(const Surface& surface, const ShapeComplex&
     if (depth > least_wing) work.constraints.push_back({wing / depth, PARALLEL_SLACK});
     return true;
   });
-  const FeatureId lead{FeatureKind::EDGE, shape.lead_of_chain(chain)};
-  if (surface.has_outer_side(lead)) {
-    const Vec3 outer = surface.pseudo_normal(lead);
+  if (const Vec3 outer = shape.outer_side(surface, {FeatureKind::EDGE, chain}); !outer.isZero(0.0)) {
     std::vector<std::int32_t> regions;
     shape.append_carriers(surface, {FeatureKind::EDGE, chain}, regions);
     if (regions.size() == 2 && regions[0] >= 0 && work.constraints.size() == 2) {
@@ -156,8 +151,7 @@ std::optional<PolarCap> cap_of_chain(const Surface& surface, const ShapeComplex&
       // Of a normal against the other region's wing; its own is square to it, so order does not
       // matter.
       const double rise = normal(0).dot(work.constraints[0].direction + work.constraints[1].direction);
-      if (rise > CLEAR_BEND && outer.dot(normal(0)) > LEAST_OUTER && outer.dot(normal(1)) > LEAST_OUTER)
-        return std::nullopt;
+      if (rise > CLEAR_BEND) return std::nullopt;
       if (rise < -CLEAR_BEND) {
         work.extremes.directions = {normal(0), normal(1)};
         work.extremes.slack = SPREAD_OF_SLACK * PARALLEL_SLACK;
