@@ -235,6 +235,48 @@ TEST(FlatScenes, AWallThatLeavesItsEdgeAlongTheFloorIsCompared) {
   }
 }
 
+/// A tetrahedron with its apex at the origin and its body along `axis`.
+TriangleMesh make_spike(const Vec3& axis) {
+  const Vec3 across = axis.unitOrthogonal(), other = axis.cross(across);
+  TriangleMesh spike;
+  spike.vertices = {Vec3::Zero(), axis + 0.1 * across, axis - 0.1 * across + 0.1 * other,
+                    axis - 0.1 * across - 0.1 * other};
+  spike.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+  return spike;
+}
+
+/// Rounding may turn a needle of a region over: at the first edge of a chain, whose outer side and
+/// wings are its regions'.
+TEST(FlatScenes, ANeedleTurnedOverAtAConvexChainChangesNoSet) {
+  const TriangleMesh spike = make_spike(Vec3(0.0, -0.3, 0.954).normalized());
+  for (const double y : {-5e-14, -3e-14, 3e-14, 5e-14}) {
+    TriangleMesh box;
+    box.vertices = {{0.0, 0.0, 0.0}, {0.02, 0.0, 0.0}, {0.01, y, 0.0},   {1.0, 0.0, 0.0},  {1.0, 1.0, 0.0},
+                    {0.0, 1.0, 0.0}, {0.0, 0.0, -0.5}, {1.0, 0.0, -0.5}, {1.0, 1.0, -0.5}, {0.0, 1.0, -0.5}};
+    box.triangles = {{0, 1, 2}, {0, 2, 5}, {2, 4, 5}, {2, 1, 4}, {1, 3, 4}, {1, 0, 6}, {1, 6, 7}, {3, 1, 7},
+                     {4, 3, 7}, {4, 7, 8}, {5, 4, 8}, {5, 8, 9}, {0, 5, 9}, {0, 9, 6}, {6, 8, 7}, {6, 9, 8}};
+    FlatComparison pair(make_scene(spike, box, 0.3));
+    pair.check({Vec3(0.6, -0.03, 0.0954), Eigen::Quaterniond::Identity()});
+    EXPECT_EQ(pair.found(), 1u) << y;
+  }
+}
+
+TEST(FlatScenes, ANeedleTurnedOverAtAReflexChainChangesNoSet) {
+  // A plate on a wedge below its edge from 2 to 4; the needle 2 4 3 belongs to the plate.
+  TriangleMesh plate;
+  plate.vertices = {{-1.0, -1.0, 0.0},  {0.0, -1.0, 0.0},  {0.0, 0.0, 1e-14},  {0.005, -3e-15, -1e-14},
+                    {0.01, 0.0, 1e-14}, {0.01, 1.0, 0.0},  {-1.0, 1.0, 0.0},   {-1.0, -1.0, -0.3},
+                    {0.0, -1.0, -0.3},  {0.0, -0.4, -0.3}, {0.01, -0.4, -0.3}, {0.01, 1.0, -0.3},
+                    {-1.0, 1.0, -0.3}};
+  plate.triangles = {{2, 4, 3},  {0, 1, 2},   {0, 2, 6},   {2, 3, 6},   {3, 4, 5},  {3, 5, 6},
+                     {1, 0, 7},  {1, 7, 8},   {2, 1, 8},   {2, 8, 9},   {4, 2, 9},  {4, 9, 10},
+                     {5, 4, 10}, {5, 10, 11}, {6, 5, 11},  {6, 11, 12}, {0, 6, 12}, {0, 12, 7},
+                     {7, 9, 8},  {7, 12, 9},  {9, 12, 11}, {9, 11, 10}};
+  FlatComparison pair(make_scene(make_spike(Vec3(0.0, 1.0, 1.0).normalized()), plate, 0.2));
+  pair.check({Vec3(0.0051, 0.1, 0.1), Eigen::Quaterniond::Identity()});
+  EXPECT_EQ(pair.found(), 1u) << "the face below the apex, and not the edge";
+}
+
 TEST(FlatScenes, AContactOfTheFaceStandsForTheWallsBesideIt) {
   // Rings, whose edges' contacts are covered by that of their faces.
   const TriangleMesh ring =
