@@ -75,8 +75,9 @@ TrackedPair shortest_pair(const TriangleList& moving, const TriangleList& fixed,
   return shortest;
 }
 
-/// Walks an LMD to its local minimum. Of pairs at one distance the one that is there stays: flat
-/// faces at rest have many such, and an LMD that moves between them wanders.
+/// Walks an LMD to its local minimum. Of pairs at one distance the one that is there stays
+/// (decision E14, ours): flat faces at rest have many such, and an LMD that moves between them
+/// wanders.
 /// @param start the LMD as it was found or tracked last
 /// @param there its triangles or points at the current pose
 /// @param look  L1 and L2: (feature_moving, feature_fixed) -> the shortest TrackedPair round them
