@@ -54,6 +54,22 @@ TEST(ClearCrossings, AreIntersectionsWithTheSegmentOfTheScalarKernel) {
   EXPECT_GT(missed, 100U) << "touching, coplanar and thin triangles are left to the scalar kernel";
 }
 
+TEST(ClearCrossings, OfTrianglesFarSmallerThanTheOtherReachesAreLeftToTheScalarKernel) {
+  // Across the origin, near which the large one has no corner.
+  const Triangle large{Vec3(-2.0, -1.0, 0.0), Vec3(2.0, -1.0, 0.1), Vec3(0.0, 3.0, -0.15)};
+  for (const double size : {1e-2, 2e-4, 2e-5, 1e-6}) {
+    const Triangle small{size * Vec3(-0.9, 0.1, -1.0), size * Vec3(1.1, 0.2, -0.9),
+                         size * Vec3(0.1, 0.3, 1.2)};
+    ASSERT_TRUE(triangle_distance(small, large).intersecting) << size;
+    for (const bool is_first : {true, false}) {
+      std::vector<ClearCrossing> found(1);
+      find_clear_crossings(std::vector{is_first ? small : large}, std::vector{is_first ? large : small},
+                           found);
+      EXPECT_EQ(found[0].length > 0.0, size > 1e-4) << size;
+    }
+  }
+}
+
 TEST(ClearGaps, AreLowerBoundsAlongTheirAxes) {
   std::size_t gaps = 0, tight = 0, together = 0;
   for (const testing::TriangleFamily& family : testing::triangle_families()) {

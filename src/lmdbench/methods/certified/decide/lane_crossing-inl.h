@@ -21,7 +21,7 @@ namespace lmdbench::HWY_NAMESPACE {
 struct Face {
   Vector origin, e1, e2, n;
   Real squared_n, inverse;  ///< |n|^2 and its inverse
-  Real least_squared_altitude;
+  Real squared_longest, least_squared_altitude;
   Mask well_shaped;
 };
 
@@ -35,6 +35,7 @@ HWY_INLINE Face face_of(const Three<Vector>& t) {
   face.n = cross(face.e1, face.e2);
   face.squared_n = dot(face.n, face.n);
   const Real longest = hn::Max(dot(face.e1, face.e1), hn::Max(dot(face.e2, face.e2), dot(e3, e3)));
+  face.squared_longest = longest;
   // Squared altitude on the longest edge over that edge's square.
   face.well_shaped = hn::Gt(face.squared_n, hn::Mul(constant(MIN_SQUARED_SINE), squared(longest)));
   face.inverse = hn::Div(one, select(face.well_shaped, face.squared_n, one));
@@ -66,6 +67,9 @@ HWY_INLINE Three<T> turned(const Three<T>& t, Mask first_is_1, Mask first_is_2) 
 /// Least part of a chord that clearly crossing triangles share, and least distance of its middle
 /// from all borders (relative). The scalar kernel's exact predicates take the other pairs.
 constexpr double LEAST_CROSSING_PART = 1e-4;
+/// Squared least length of the face's longest side and of the other's cut edges, relative to how
+/// far the other reaches: rounding of the middle moves it by less than LEAST_CROSSING_PART of them.
+constexpr double LEAST_SQUARED_SIZE = 1e-8;
 /// Squared sine of the least angle of chord and cutting edge, in the worst-shaped face: see `cut`.
 constexpr double LEAST_SQUARED_FALL = 1e-6;
 
@@ -99,10 +103,15 @@ inline std::uint32_t crossing(const LaneBlock& block, LaneCrossing& result) {
                                  hn::Le(magnitude, constant(LARGEST_COORDINATE))),
                          face.well_shaped);
     const Real squared_height_margin = hn::Mul(squared_margin, face.squared_n);
+    Real squared_reach = zero();
     for (int k = 0; k < 3; ++k) {
-      height.v[k] = dot(b.v[k] - face.origin, face.n);
+      const Vector corner = b.v[k] - face.origin;
+      squared_reach = hn::Max(squared_reach, dot(corner, corner));
+      height.v[k] = dot(corner, face.n);
       clear = hn::And(clear, hn::Gt(squared(height.v[k]), squared_height_margin));
     }
+    const Real least_squared_size = hn::Mul(constant(LEAST_SQUARED_SIZE), squared_reach);
+    clear = hn::And(clear, hn::Ge(face.squared_longest, least_squared_size));
     // The corner that is alone on its side of the plane comes first.
     const Mask lone_is_0 = hn::Gt(hn::Mul(height.v[1], height.v[2]), zero());
     const Mask lone_is_1 = hn::AndNot(lone_is_0, hn::Gt(hn::Mul(height.v[0], height.v[2]), zero()));
@@ -116,6 +125,7 @@ inline std::uint32_t crossing(const LaneBlock& block, LaneCrossing& result) {
     Three<Real> on_a[2];
     for (int i = 0; i < 2; ++i) {
       const Vector edge = turned_b.v[i + 1] - turned_b.v[0];
+      clear = hn::And(clear, hn::Ge(dot(edge, edge), least_squared_size));
       const Real drop = hn::Sub(h.v[0], h.v[i + 1]);
       // An edge that is nearly parallel to the plane would put the chord's end elsewhere than the
       // scalar kernel does.
