@@ -54,19 +54,23 @@ TEST(ClearCrossings, AreIntersectionsWithTheSegmentOfTheScalarKernel) {
   EXPECT_GT(missed, 100U) << "touching, coplanar and thin triangles are left to the scalar kernel";
 }
 
-TEST(ClearCrossings, OfTrianglesFarSmallerThanTheOtherReachesAreLeftToTheScalarKernel) {
-  // Across the origin, near which the large one has no corner.
+TEST(ClearCrossings, OfSpecksBesideTheOtherAreLeftToTheScalarKernel) {
   const Triangle large{Vec3(-2.0, -1.0, 0.0), Vec3(2.0, -1.0, 0.1), Vec3(0.0, 3.0, -0.15)};
-  for (const double size : {1e-2, 2e-4, 2e-5, 1e-6}) {
-    const Triangle small{size * Vec3(-0.9, 0.1, -1.0), size * Vec3(1.1, 0.2, -0.9),
-                         size * Vec3(0.1, 0.3, 1.2)};
-    ASSERT_TRUE(triangle_distance(small, large).intersecting) << size;
-    for (const bool is_first : {true, false}) {
+  for (const double size : {1e-2, 1e-3, 2e-5, 1e-6}) {
+    const auto is_found = [&](const Triangle& a, const Triangle& b) {
+      EXPECT_TRUE(triangle_distance(a, b).intersecting) << size;
       std::vector<ClearCrossing> found(1);
-      find_clear_crossings(std::vector{is_first ? small : large}, std::vector{is_first ? large : small},
-                           found);
-      EXPECT_EQ(found[0].length > 0.0, size > 1e-4) << size;
-    }
+      find_clear_crossings(std::vector{a}, std::vector{b}, found);
+      return found[0].length > 0.0;
+    };
+    const Triangle speck{size * Vec3(-0.9, 0.1, -1.0), size * Vec3(1.1, 0.2, -0.9),
+                         size * Vec3(0.1, 0.3, 1.2)};
+    EXPECT_EQ(is_found(large, speck), size > 1e-4) << size;
+    // A needle through a speck.
+    const Triangle needle{Vec3(0.0, 0.0, 0.5), Vec3(-size, 0.0, -0.5), Vec3(size, 0.3 * size, -0.5)};
+    const Triangle flat{size * Vec3(-2.0, -1.0, 0.0), size * Vec3(2.0, -1.0, 0.1),
+                        size * Vec3(0.0, 3.0, -0.1)};
+    EXPECT_EQ(is_found(flat, needle), size > 1e-4) << size;
   }
 }
 
