@@ -56,7 +56,7 @@ TEST(ClearCrossings, AreIntersectionsWithTheSegmentOfTheScalarKernel) {
 
 TEST(ClearCrossings, OfSpecksBesideTheOtherAreLeftToTheScalarKernel) {
   const Triangle large{Vec3(-2.0, -1.0, 0.0), Vec3(2.0, -1.0, 0.1), Vec3(0.0, 3.0, -0.15)};
-  for (const double size : {1e-2, 1e-3, 2e-5, 1e-6}) {
+  for (const double size : {1e-2, 1e-3, 5e-6, 1e-6}) {
     const auto is_found = [&](const Triangle& a, const Triangle& b) {
       EXPECT_TRUE(triangle_distance(a, b).intersecting) << size;
       std::vector<ClearCrossing> found(1);
