@@ -401,6 +401,20 @@ class Results(Files):
         self.assertEqual(movers.attrs["units"]["torque_y"], "N m")
         self.assertIn("moving_body", result.lmds("certified"))
 
+    def test_movers_of_a_closed_loop_stand_where_the_method_left_them(self):
+        done = self.program("-q", "run", os.path.join(ROOT, "experiments", "movers.json"), "--out", "loop.h5", "--set", "/frames=5",
+                            "--set", '/loop={"kind": "closed"}', "--set", "/driver/repetitions=1", "--set", "/probes/fcl/stride_frames=0",
+                            "--set", "/probes/truth/stride_frames=0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = lmdbench.open_result(self.path("loop.h5"))
+        movers, h5 = result.movers("certified"), result.result.h5
+        own = movers[movers["mover"] == 0]
+        np.testing.assert_array_equal(own[["position_x", "position_y", "position_z"]], h5["/methods/certified/path/position"])
+        np.testing.assert_array_equal(own[[f"orientation_{axis}" for axis in "xyzw"]], h5["/methods/certified/path/orientation"])
+        self.assertFalse(np.array_equal(h5["/methods/certified/path/position"], h5["/path/movers/position"][:, 0]))
+        other = movers[movers["mover"] == 3]
+        np.testing.assert_array_equal(other[["position_x", "position_y", "position_z"]], h5["/path/movers/position"][:, 3])
+
     def test_files_of_every_format_version(self):
         for version in (1, 2):
             result = lmdbench.open_result(os.path.join(ROOT, "tests", "result_file", "formats", f"format-{version}.h5"))
