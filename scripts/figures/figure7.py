@@ -24,7 +24,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 RECALL_BINS = 40  # the recall of one frame is mostly 0 or 1
-# Truth is a wide pale band; the line of a method that is right is inside it.
+# Truth is a wide pale band, inside of which the line of a method that is right is; pale dots where
+# probed frames do not follow each other.
 TRUTH_WIDTH = 2.6
 # A time axis ends above this quantile, so that single samples of a busy machine do not flatten the
 # rest. The figure tells how many are cut off, and the largest.
@@ -107,13 +108,18 @@ def note_beyond(axes):
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}, **NOTE)
 
 
+def truth_look(method, frames):
+    """A line between frames that were not probed would show forces that there never were."""
+    shape = {"lw": TRUTH_WIDTH} if np.all(np.diff(frames) == 1) else {"ls": "none", "marker": "o", "ms": 3.6, "mew": 0}
+    return {"color": style.TRUTH_COLOURS[method.force_law], **shape}
+
+
 def plot_force(axes, column):
     for method in column.methods:
         axes.plot(column.time, method.force_magnitude(), **column.look[method.label])
     for _, method in true_forces(column.methods):
         frames, force = reference_force(method)
-        axes.plot(column.time[frames], force, lw=TRUTH_WIDTH, color=style.TRUTH_COLOURS[method.force_law], zorder=1,
-                  solid_capstyle="round", solid_joinstyle="round")
+        axes.plot(column.time[frames], force, **truth_look(method, frames), zorder=1, solid_capstyle="round", solid_joinstyle="round")
     limit = column.result.scene("device_maximum_force_n")
     highest = max(float(np.nanmax(line.get_ydata(), initial=0.0)) for line in axes.lines)
     if highest >= 0.99 * limit:
@@ -222,7 +228,7 @@ def keys_of_rows(columns):
             elif method.tracks_locally:
                 searches[name] = plain
         for _, method in true_forces(column.methods):
-            laws[method.force_law] = key(f"truth, {method.force_law} law", style.TRUTH_COLOURS[method.force_law], width=TRUTH_WIDTH)
+            laws[method.force_law] = Line2D([], [], **truth_look(method, reference_force(method)[0]), label=f"truth, {method.force_law} law")
     # A single method is named; the pale lines of several look alike.
     whose = f"{reducing[0]}, " if len(set(reducing)) == 1 else "any method, "
     before, alone = ([key(whose + words, style.SKY)] if reducing else [] for words in ("before reduction", "search alone"))

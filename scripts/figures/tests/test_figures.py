@@ -267,6 +267,15 @@ class FigureTest(ScriptsTest):
         with self.assertRaisesRegex(ResultError, "5 columns are more than a page holds"):
             figure7.draw(*[exact] * 5)
 
+    def test_figure7_draws_no_true_force_between_probed_frames(self):
+        for stride, line in ((20, "None"), (1, "-")):
+            result = Result(write_result(self.path(f"every{stride}.h5"), frames=100, truth_stride=stride))
+            force, truth = figure7.draw(result).axes[0], figure_style.TRUTH_COLOURS["exponential"]
+            drawn = [one for one in force.lines if one.get_color() == truth]
+            keys = [key for legend in force.figure.legends for key in legend.get_lines() if key.get_color() == truth]
+            self.assertEqual([one.get_linestyle() for one in (*drawn, *keys)], [line, line])
+            self.assertEqual(drawn[0].get_marker(), "o" if stride > 1 else "None")
+
     def test_no_true_force_where_triangles_intersect(self):
         def intersect(h5):
             h5["reference/minimum_distance"][...] = 1e-3
