@@ -250,6 +250,10 @@ def draw(*results):
     columns = columns_of(results)
     if len(columns) > MOST_COLUMNS:
         raise ResultError(f"{results[0].file}: {len(columns)} columns are more than a page holds (remedy: at most {MOST_COLUMNS} results or profiles)")
+    return draw_columns(columns)
+
+
+def draw_columns(columns):
     style.use_style()
     heights = [height for _, _, height in ROWS]
     figure, axes = plt.subplots(
