@@ -9,7 +9,7 @@ import numpy as np
 
 from cases import Scratch
 import figure1
-from lmdbench_results import ResultError
+from lmdbench_results import ResultError, UsageError
 
 CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
 FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
@@ -60,6 +60,29 @@ class Figure1(Scratch):
         self.assertIsNone(figure1.index_to_show([[]] * 5, times))
         poses = np.arange(4000.0)[:, None]
         self.assertEqual(figure1.chosen_poses(poses, None)[[0, -1], 0].tolist(), [0.0, 3999.0])
+
+    def test_no_time_of_the_path_is_refused(self):
+        for time in ("99", "-1", "nan"):
+            with self.assertRaisesRegex(UsageError, "--time: .* s is no time of the path .remedy: give one from 0 to 2"):
+                figure1.main([*self.experiment([LMD]), f"--time={time}"])
+
+    def test_a_mesh_file_is_read_from_beside_the_experiment(self):
+        figure1.write_off(self.write("experiments/own.off", ""), CUBE, FACES)
+        self.assertEqual(figure1.main(self.experiment([LMD], moving={"mesh": "./own.off"}, force={"cutoff_m": 0.2})), 0)
+        with self.assertRaisesRegex(UsageError, "own.stl: not drawn here.*remedy"):
+            figure1.main(self.experiment([LMD], moving={"mesh": "./own.stl"}))
+
+    def test_what_an_experiment_leaves_out_is_named(self):
+        for changes, words in (({"path": {}}, "e.json: /path/file: needed here"), ({"force": {"maximum_force_n": 1}}, "e.json: /force: .*cutoff_m")):
+            with self.assertRaisesRegex(UsageError, words):
+                figure1.main(self.experiment([LMD], **changes))
+
+    def test_intersecting_triangles_alone_are_enlarged(self):
+        meshes = [(CUBE, FACES), (CUBE + [1.0, 0.0, 0.0], FACES)]
+        figure = figure1.draw(meshes, [{"point_moving": [1.0, 0.5, 0.5], "point_fixed": [1.0, 0.5, 0.5]}], "")
+        whole, enlarged = (np.ptp(axes.get_xlim()) for axes in figure.axes)
+        figure1.plt.close(figure)
+        self.assertGreater(enlarged / whole, 0.01)
 
     def test_no_lmd_is_said_and_not_drawn(self):
         with self.assertRaisesRegex(ResultError, "no LMD within the cutoff at 2 s"):

@@ -11,7 +11,7 @@ import sys
 import h5py
 import numpy as np
 
-from cases import FIGURES, Scratch, SharedScratch, call, text_of
+from cases import FIGURES, ROOT, Scratch, SharedScratch, call, text_of
 import check_format
 import claim_rules
 import claim_runs
@@ -105,6 +105,24 @@ class ReadingTest(ScriptsTest):
         for script, *files in (("front_page.py", self.hard), ("polylines.py", self.path("cut.h5"))):
             said = self.refused(lmdbench_results.EXIT_INPUT_DATA, script, *files, "--out", self.path("out"))
             self.assertTrue(said.startswith(files[0]), said)
+
+    def test_what_was_asked_for_leaves_with_the_exit_code_of_usage_and_no_program_with_that_of_the_environment(self):
+        experiment = ROOT / "experiments" / "bunny-hard.json"
+        refusing = self.write("refusing", "#!/bin/sh\necho 'lmdbench: error: --level: no such level' >&2\nexit 2\n")
+        pathlib.Path(refusing).chmod(0o755)
+        there = ("--out", self.path("out"))
+        for code, words, script, *arguments in (
+                (2, "--level: no such level", "figure2.py", experiment, "--program", refusing),
+                (4, "gone: cannot be started.*remedy", "figure2.py", experiment, "--program", self.path("gone")),
+                (2, "nosuch.json: is no experiment: .*remedy", "figure1.py", self.path("nosuch.json")),
+                (2, "hard.h5: is no experiment: .*remedy", "figure1.py", self.hard),
+                (2, "--curves: -3 is below 1", "polylines.py", self.hard, "--curves", "-3")):
+            self.assertRegex(self.refused(code, script, *arguments, *there), words)
+
+    def test_a_file_of_another_kind_is_not_printed(self):
+        said = self.refused(lmdbench_results.EXIT_INPUT_DATA, "front_page.py", self.hard)
+        self.assertLess(len(said), 500)
+        self.assertRegex(said, "remedy: name files of the kind")
 
     def test_scripts_leave_with_the_exit_code_of_the_environment(self):
         occupied = self.write("occupied", "a file where a directory should be")
