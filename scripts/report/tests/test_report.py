@@ -425,7 +425,8 @@ class Page(Scratch):
     def test_claims_link_to_sections_that_are_there(self):
         text = self.made("--paper")
         claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
-        self.assertIn('<th scope="row">K10</th>', claims)
+        self.assertEqual(re.findall(r'<th scope="row">(K\d+)</th>', claims), [f"K{number}" for number in range(1, 13)])
+        self.assertRegex(claims.split('<th scope="row">K12</th>')[1], r"<td>not measured</td>\s*<td><b>holds where</b>")
         links = re.findall(r'href="#([^"]+)"', claims)
         self.assertIn("figure7", links)
         self.assertNotIn("study-jumps", links)
