@@ -9,6 +9,7 @@ medians over the repetitions without the warm-up."""
 
 import argparse
 import math
+import textwrap
 from types import SimpleNamespace
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
@@ -35,6 +36,7 @@ NOTABLE_EXCESS = 1.5  # a smaller excess widens the axis
 SHORTEST_UPDATE_US = 0.1  # lower end of its axis; below are updates of empty sets
 HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
+LETTER = 0.6  # width of one, as a share of the font's size
 MOST_COLUMNS = 4
 LONGEST_LABEL = 32  # letters; it stands twice in some rows
 LEGEND_LAYOUTS = ((7.0, 1), (5.5, 1), (5.5, 2), (4.5, 2))
@@ -47,7 +49,7 @@ class Column:
         self.result, self.time = result, result.time
         self.methods = methods
         # Under several profiles the column's title has the profile: names are equal in all columns.
-        self.names = {method.label: method.label.removesuffix(f"-{method.profile}") if method.profile else method.label for method in methods}
+        self.names = {method.label: method.series for method in methods}
         named = [SimpleNamespace(label=self.names[method.label], name=method.name, order=method.order) for method in methods]
         colours, rounds = style.colours_of(named), style.rounds_of(named)
         self.look = {}
@@ -157,11 +159,16 @@ def drawn_values(axes):
     return values[np.isfinite(values)]
 
 
+def say_inside(axes, words):
+    """In the middle, on as many lines as keep it from the panels beside it."""
+    width = axes.get_position().width * axes.figure.get_figwidth() * 72 / (LETTER * NOTE["fontsize"])
+    axes.text(0.5, 0.5, textwrap.fill(words, int(width)), transform=axes.transAxes, ha="center", va="center", **NOTE)
+
+
 def plot_searches(axes, column):
     searching = [method for method in column.methods if method.tracks_locally]
     if not searching:
-        axes.text(0.5, 0.5, "no method searches at a rate of its own:\nthe local update is the whole search", transform=axes.transAxes, ha="center",
-                  va="center", **NOTE)
+        say_inside(axes, "no method searches at a rate of its own: the local update is the whole search")
         axes.set_yticks([])
         return
     for method in searching:
@@ -201,7 +208,7 @@ def plot_recall(axes, column):
     for method in column.methods:
         truth = truth_of(method)
         if truth is None:
-            axes.text(0.5, 0.5, no_truth(column.result), transform=axes.transAxes, ha="center", va="center")
+            say_inside(axes, no_truth(column.result))
             return
         bins = np.clip(np.digitize(column.time[truth.frames], edges) - 1, 0, RECALL_BINS - 1)
         for shares, options in ((truth.recall, {**column.look[method.label], "lw": 1.1}),

@@ -128,6 +128,7 @@ class Method:
             order, tracks, trackings = (attributes[name] for name in ("method_order", "tracks_locally", "trackings_after_search"))
         self.order, self.tracks_locally, self.reduces = int(order), bool(tracks), int(trackings) > 0
         self.profile = result.text_attribute(group, "profile") or ""
+        self.series = label.removesuffix(f"-{self.profile}") if self.profile else label  # the same under every profile
 
     def has(self, dataset):
         return self.result.has(f"/methods/{self.label}/{dataset}")

@@ -102,6 +102,7 @@ def work_precision_text(results):
     """What the figure shows; lanes and open marks only where they are drawn."""
     points = [work_precision.Point(result, method) for result in results for method in result.methods.values()]
     several = " in one experiment" if len({point.experiment for point in points}) > 1 else ""
+    several += " under one force profile" if any(point.method.profile for point in points) else ""
     lanes = ["The shaded lane on the left holds errors of exactly zero."] * any(
         0.0 in (point.force_error, point.missed, point.missed_adjacent) for point in points)
     lanes += ["The shaded lane on the right holds methods that fail."] * any(point.failure for point in points)

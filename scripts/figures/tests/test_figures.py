@@ -343,6 +343,21 @@ class FigureTest(ScriptsTest):
         colour = figure_style.colours_of(Result(self.hard).methods.values())["original"]
         self.assertEqual([any(line.get_color() == colour for line in panel.lines) for panel in (force, missed)], [True, False])
 
+    def test_work_precision_tells_profiles_by_marks_and_methods_by_colours(self):
+        def profiles(h5):
+            for label in ("original", "improved"):
+                for number in range(7):
+                    h5.copy(f"methods/{label}", f"methods/{label}-p{number}")
+                    h5[f"methods/{label}-p{number}"].attrs["profile"] = f"p{number}"
+                del h5[f"methods/{label}"]
+
+        figure = work_precision.draw([Result(self.edited("seven.h5", profiles))])
+        looks = {(line.get_color(), line.get_marker()) for line in figure.axes[0].lines if line.get_marker() in work_precision.MARKERS}
+        self.assertEqual(len(looks), 14)
+        self.assertEqual({colour for colour, _ in looks}, {figure_style.VERMILLION, figure_style.BLUE})
+        keys = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+        self.assertEqual(keys[:3], ["original", "improved", "hard, p0"])
+
     def test_labels_of_an_axis_stay_apart_however_far_errors_reach(self):
         def shift(error):
             def change(h5):

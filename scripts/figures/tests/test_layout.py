@@ -131,6 +131,16 @@ class LayoutTest(SharedScratch):
             for box in labels(axes):
                 self.assertGreater(box.x0, left.get_window_extent(renderer).x1)
 
+    def test_what_an_empty_panel_says_stays_in_it(self):
+        file = write_result(self.path("empty.h5"), frames=100, methods=("certified",), truth_stride=0, settings={"probes": {"truth": {"stride_frames": 200}}})
+        figure = figure7.draw(*[Result(file)] * 4)
+        renderer = figure.canvas.get_renderer()
+        for row in (2, 4):
+            for axes in figure.axes[4 * row:4 * row + 4]:
+                (text,) = axes.texts
+                self.assertGreater(text.get_window_extent(renderer).x0, axes.get_window_extent(renderer).x0, text)
+                self.assertLess(text.get_window_extent(renderer).x1, axes.get_window_extent(renderer).x1, text)
+
     def test_a_share_does_not_exceed_all(self):
         file = write_result(self.path("half.h5"), frames=600, repetitions=3)
         with h5py.File(file, "a") as h5:
