@@ -5,7 +5,7 @@
 import json
 import os
 
-from lmdbench_results import Result, ResultError
+from lmdbench_results import Result, UsageError
 
 # Settings without effect on results: named only if nothing else differs.
 INCIDENTAL = ("/probes", "/record", "/plan", "/mesh_folder", "/driver/block_frames", "/driver/repetitions")
@@ -71,7 +71,7 @@ def tell_apart(results):
 
 def refuse_twice(files):
     if len({os.path.realpath(file) for file in files}) < len(files):
-        raise ResultError(f"{', '.join(map(str, files))}: a file is there twice (remedy: name every result once)")
+        raise UsageError(f"{', '.join(map(str, files))}: a file is there twice (remedy: name every result once)")
 
 
 def open_results(files):

@@ -6,7 +6,7 @@ import tempfile
 
 from cases import Scratch
 import figure7
-from lmdbench_results import ResultError
+from lmdbench_results import UsageError
 from synthetic import write_result
 from variants import open_results
 
@@ -60,8 +60,9 @@ class Names(Scratch):
 
     def test_a_file_given_twice_is_refused(self):
         file = write_result(self.path("a.h5"), frames=100)
-        with self.assertRaisesRegex(ResultError, "there twice.*remedy"):
+        with self.assertRaisesRegex(UsageError, "there twice.*remedy"):
             open_results([file, file])
+        self.assertEqual(UsageError.exit_code, 2)
 
 
 class Axes(Scratch):
