@@ -132,6 +132,8 @@ class AgainstTheProgram(Files):
         np.testing.assert_array_equal(*sets)
         with self.assertRaises(lmdbench.UsageError):
             lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "improved", search_threads=np.float64(1.5))
+        with self.assertRaisesRegex(lmdbench.UsageError, "options: g5_tolerance_deg: nan .*remedy: a finite number"):
+            lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "original", merge_duplicates=True, g5_tolerance_deg=np.float64("nan"))
         with self.assertRaisesRegex(TypeError, "type set .*remedy"):
             lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "improved", search_threads={1})
 
