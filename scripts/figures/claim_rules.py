@@ -12,7 +12,7 @@ import claim_runs
 import region_cost
 import region_force
 import region_sets
-from lmdbench_results import ResultError
+from lmdbench_results import ResultError, in_short
 from region_rules import FAILS, HOLDS, NOT_MEASURED, OPEN, Found
 
 
@@ -149,7 +149,7 @@ def read_verdicts(file=None):
     try:
         return {entry["claim"]: entry for entry in json.loads(Path(file or REFERENCE).read_text(encoding="utf-8"))}
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ResultError(f"{file or REFERENCE}: is no ledger of verdicts: {error!r} (remedy: scripts/claims.sh verdicts)")
+        raise ResultError(f"{file or REFERENCE}: is no ledger of verdicts: {type(error).__name__}: {in_short(error)} (remedy: scripts/claims.sh verdicts)")
 
 
 @dataclass

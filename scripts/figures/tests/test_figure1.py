@@ -95,6 +95,11 @@ class Figure1(Scratch):
         np.testing.assert_array_equal(points, CUBE / 3.0)
         np.testing.assert_array_equal(faces, FACES)
 
+    def test_what_is_no_off_file_of_triangles_is_named(self):
+        for name, text in (("quads.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"), ("cut.off", "OFF\n3 1 0\n0 0\n"), ("empty.off", "")):
+            with self.assertRaisesRegex(ResultError, f"{name}: is no OFF file of triangles.*remedy"):
+                figure1.read_off(self.write(name, text))
+
     def test_view_and_rotation_are_rotations(self):
         half = np.sqrt(0.5)
         np.testing.assert_allclose(figure1.rotation(0, 0, half, half) @ [1, 0, 0], [0, 1, 0], atol=1e-12)

@@ -553,3 +553,7 @@ class OneLedgerTest(Scratch):
     def test_a_ledger_that_is_none_is_refused(self):
         with self.assertRaisesRegex(ResultError, "no ledger of verdicts"):
             read_verdicts(self.write("claims.json", '[{"id": "K1"}]'))
+        with open(self.path("binary"), "wb") as stream:
+            stream.write(b"\x89" * 10_000)
+        with self.assertRaisesRegex(ResultError, "^.{1,500}$"):
+            read_verdicts(self.path("binary"))
