@@ -100,10 +100,11 @@ class LayoutTest(SharedScratch):
         self.assertEqual((len(long), long[:4], long[-5:]), (figure_style.LONGEST_NAME, "left", "right"))
 
     def test_dollars_in_names_begin_no_formula(self):
+        other = self.result("$", 4, 2)
         for name in ("cu$^$.off", "a$x^{ $"):
             result = self.result(name)
             self.check(figure7.draw(result), "figure 7")
-            self.check(work_precision.draw([result, self.result("$", 4, 2)]), "error against run time")
+            self.check(work_precision.draw([result, other]), "error against run time")
             figure_style.note_failures(figure := figure_style.plt.figure(), {name: "is missing"})
             figure.canvas.draw()
 
