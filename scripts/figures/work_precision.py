@@ -23,14 +23,14 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
-MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*", "p", "h", "d", "8")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "p", "h", "d", "8", "*")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
 # Width of the lanes for errors of exactly 0 and for failures, as a share of the logarithmic range.
 LANE_SHARE = 0.2
 MARGIN = 0.1  # decades between points and the ends of an axis
 SHORTEST_RANGE = 0.6  # decades
 NEAR = 0.35  # decades from an axis to the budget that it still reaches for
-LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5),)
+LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5), (5.5, 8), (5.5, 12))
 
 
 class Point:

@@ -82,6 +82,12 @@ class LayoutTest(SharedScratch):
                 self.check(figure7.draw(*chosen), "figure 7")
                 self.check(work_precision.draw(chosen), "error against run time")
 
+    def test_keys_of_many_results_stay_in_a_narrow_figure(self):
+        results = [self.result(f"{'long name ' * 5}{number}", 2, number) for number in range(9)]
+        figure = work_precision.draw(results, narrow=True)
+        (legend,) = figure.legends
+        self.assertLessEqual(figure_style.width_of(figure, legend)[1], 1.0)
+
     def test_counts_between_1_and_10_have_a_scale(self):
         self.assertEqual(figure7.count_ticks(1.0), [0.0, 1.0])
         self.assertEqual(figure7.count_ticks(8.0), [0.0, 1.0, 8.0])
