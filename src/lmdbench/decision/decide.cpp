@@ -248,7 +248,8 @@ class Decision {
     const Vec3 u = facing();
     return direction_about(u.isZero(LEAST_FACING) ? Vec3::UnitX() : Vec3(u.normalized()), 1.0, tilt);
   }
-  /// Sum of the outer sides of two corners or chains, or of their pseudo-normals where neither has one.
+  /// Sum of the outer sides of two corners or chains, or of their pseudo-normals where neither has
+  /// one.
   Vec3 facing() const {
     const Vec3 f = moving_.shape.outer_side(moving_.surface, f_),
                g = fixed_.shape.outer_side(fixed_.surface, g_);

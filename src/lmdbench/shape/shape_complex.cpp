@@ -239,8 +239,8 @@ void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain
         wings_.push_back(across);
         continue;
       }
-      // Of the region's plane, because a small triangle's is inaccurate: to the left of the side, as
-      // the triangle's corner may be on the wrong one.
+      // Of the region's plane, because a small triangle's is inaccurate: to the left of the side,
+      // as the triangle's corner may be on the wrong one.
       const double run = (position(corners[(k + 2) % 3]) - position(corners[(k + 1) % 3])).dot(along);
       const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
       const Vec3 inwards = n.cross(run < 0.0 ? Vec3(-along) : along).normalized();

@@ -69,9 +69,9 @@ class ShapeComplex {
   bool is_lead_of_several(const FeatureId& feature) const;
   /// Whether a chain is one edge between regions of one triangle each.
   bool is_plain_chain(const Surface& surface, std::int32_t chain) const;
-  /// The outer side at a corner or chain, a unit vector in the mesh's frame; zero where it has none.
-  /// Of a chain the sum of its regions' normals, as triangles there may be needles turned over; of a
-  /// corner the pseudo-normal.
+  /// The outer side at a corner or chain, a unit vector in the mesh's frame; zero without one. Of a
+  /// chain it is the sum of its regions' normals, as triangles there may be needles turned over; of
+  /// a corner the pseudo-normal.
   /// @param feature  a vertex, or an edge whose index counts chains
   Vec3 outer_side(const Surface& surface, const FeatureId& feature) const;
   /// Appends the vertices that bound a lead's feature: a region's corners, a chain's ends.
