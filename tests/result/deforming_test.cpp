@@ -298,6 +298,11 @@ TEST(Deforming, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"interval_s":1})"),
               HasSubstr("\"generator\" and \"interval_s\" exclude each other"));
   EXPECT_THAT(refusal(R"({"amplitude":1,"folder":"a"})"), HasSubstr("exclude each other"));
+  EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"end":"repeat"})"),
+              HasSubstr("\"end\" and \"generator\" exclude each other"));
+  for (const std::string key : {R"("seed":2)", R"("period_s":2)", R"("share":0.5)", R"("direction":[1,0,0])"})
+    for (const std::string from : {R"("files":["a.off"])", R"("folder":"a")"})
+      EXPECT_THAT(refusal("{" + from + "," + key + "}"), HasSubstr("exclude each other")) << key;
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"direction":[0,0,0]})"),
               HasSubstr("/moving/deformation/direction"));
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"share":0})"),
