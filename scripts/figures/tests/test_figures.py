@@ -413,6 +413,13 @@ class SummaryTest(ScriptsTest):
         self.assertIn(" 4.32e-05 ", text)
         self.assertIn("times were not kept;", text)
 
+    def test_a_closed_loop_says_whose_contact_it_counts(self):
+        whose = "in contact on the path that the hand means; "
+        self.assertNotIn(whose, self.printed(summary.main, self.hard))
+        closed = self.path("closed.h5")
+        write_result(closed, settings={"loop": {"kind": "closed"}})
+        self.assertIn(whose, self.printed(summary.main, closed))
+
     def test_missing_errors_are_shouted(self):
         self.assertIn("NO TRUTH PROBE", self.printed(summary.main, self.bare))
 

@@ -132,6 +132,25 @@ FileContent read_input_file(const std::filesystem::path& file, const InputKind& 
   return input;
 }
 
+namespace {
+
+/// Such a cell would shift all behind it.
+bool has_empty_cell(const std::string& line) {
+  const auto is_blank = [](std::string_view cell) {
+    return cell.find_first_not_of(" \t\r\v\f") == std::string_view::npos;
+  };
+  std::string_view rest = line;
+  bool empty = false;
+  for (auto comma = rest.find(','); comma != std::string_view::npos; comma = rest.find(',')) {
+    empty = empty || is_blank(rest.substr(0, comma));
+    rest.remove_prefix(comma + 1);
+    empty = empty || is_blank(rest);
+  }
+  return empty;
+}
+
+}  // namespace
+
 void for_each_number_line(
     const std::string& text, const std::string& name, const std::string& remedy,
     const std::function<void(const std::string& place, std::span<const double> numbers)>& use) {
@@ -141,6 +160,7 @@ void for_each_number_line(
   for (std::string line; std::getline(lines, line);) {
     const std::string place = fmt::format("line {}", ++number);
     line.resize(std::min(line.find('#'), line.size()));
+    if (has_empty_cell(line)) throw InputError(name, place, "nothing before or behind a comma", remedy);
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream words(line);
     numbers.clear();
