@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <memory>
@@ -80,12 +79,10 @@ int compare(CompareArguments& arguments) {
   if (!arguments.benchmark_base.empty())
     write_file_atomically(arguments.benchmark_base,
                           google_benchmark_json(comparison.base, comparison.machine.base));
-  if (arguments.json) {
-    for (const std::string& note : comparison.notes) spdlog::info("{}", note);
+  if (arguments.json)
     fmt::print("{}\n", comparison_json(comparison));
-  } else {
+  else
     fmt::print("{}", arguments.markdown ? comparison_markdown(comparison) : comparison_text(comparison));
-  }
   return exit_code(comparison.verdict);
 }
 
