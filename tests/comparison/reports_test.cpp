@@ -90,6 +90,9 @@ TEST(DifferenceText, NamesTheElementOfALongRow) {
   candidate[38] = 0.5;
   EXPECT_EQ(difference_text({"m", "movers/force", 3, base, candidate, 1}),
             "m: movers/force differs in frame 3: element 38: 0.25 became element 38: 0.5");
+  std::string accents;
+  for (int i = 0; i < 80; ++i) accents += "\u00e9";
+  EXPECT_THAT(difference_text({"", "/name", std::nullopt, accents, 1, 0}), HasSubstr("\u00e9... became 1"));
   EXPECT_EQ(difference_text({"", "/loop/hand", std::nullopt, nullptr, 1, 0}),
             "/loop/hand differs: null became 1");
 }

@@ -187,8 +187,11 @@ std::pair<std::string, std::string> shown(const Difference& d) {
         return {fmt::format("element {}: {}", i, a), fmt::format("element {}: {}", i, b)};
     }
   }
-  for (std::string* text : {&texts.first, &texts.second})
-    if (text->size() > LONGEST) *text = text->substr(0, LONGEST) + "...";
+  for (std::string* text : {&texts.first, &texts.second}) {
+    std::size_t end = LONGEST;  // of a whole UTF-8 character
+    while (end < text->size() && (static_cast<unsigned char>((*text)[end]) & 0xC0U) == 0x80U) --end;
+    if (text->size() > LONGEST) *text = text->substr(0, end) + "...";
+  }
   return texts;
 }
 
