@@ -181,7 +181,7 @@ std::string deciding_key(const std::string& dataset, bool of_method) {
 bool left_out(const nlohmann::json& experiment, const std::string& key) {
   if (key.empty()) return false;
   const nlohmann::json value = setting(experiment, key);
-  return value == false || value == 0;
+  return value.is_boolean() ? !value.get<bool>() : value == 0;
 }
 
 /// "frame" of a table, or the frames of searches.
