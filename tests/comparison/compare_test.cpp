@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using testing::ScratchDirectory;
 using testing::SyntheticResult;
 using Paths = std::vector<std::filesystem::path>;
@@ -170,6 +171,10 @@ TEST_F(Compare, StagesWithoutTimesAreNamed) {
   EXPECT_EQ(without.timings.size(), 2U);
   EXPECT_THAT(without.notes,
               Contains(HasSubstr("b0.h5 holds no time in /methods/original/global_search_time")));
+  Paths with_both = side(search, "f", 1), also_without = side(search, "g", 1);
+  with_both.push_back(side({}, "h", 1)[0]);
+  EXPECT_THAT(compare_results(with_both, also_without, {}).notes,
+              IsSupersetOf({HasSubstr("f0.h5 holds no time"), HasSubstr("g0.h5 holds no time")}));
   Paths others = side(elsewhere, "c", 3);
   others.push_back(side(certified, "d", 1)[0]);
   const Comparison ratios = compare_results(side({}, "e", 4), others, {});

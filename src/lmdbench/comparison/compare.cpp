@@ -15,6 +15,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace lmdbench {
 namespace {
@@ -189,17 +190,19 @@ std::vector<std::string> common_methods(const Comparison& comparison, const Resu
   return methods;
 }
 
-/// Names stages that one process timed and another did not: they are not compared.
+using StagesTimed = std::map<std::string, std::set<std::string>>;
+
+/// Names stages that another process timed and one of these did not: they are not compared.
 void note_missing_times(const Files& files, const std::vector<StageTimes>& processes,
-                        const std::vector<StageTimes>& others, std::vector<std::string>& notes) {
-  for (const auto& [method, times] : others.front()) {
-    for (const TimedStage& stage : stages()) {
-      const std::string name(stage.name);
-      if (!times.contains(name)) continue;
-      for (std::size_t i = 0; i < files.size(); ++i) {
-        const std::string group = "/methods/" + method;
-        const auto found = processes[i].find(method);
-        if (!files[i].has(group) || (found != processes[i].end() && found->second.contains(name))) continue;
+                        const StagesTimed& timed, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const auto& [method, names] : timed) {
+      const std::string group = "/methods/" + method;
+      const auto found = processes[i].find(method);
+      if (!files[i].has(group)) continue;
+      for (const TimedStage& stage : stages()) {
+        const std::string name(stage.name);
+        if (!names.contains(name) || (found != processes[i].end() && found->second.contains(name))) continue;
         notes.push_back(fmt::format("{}, {}: not compared, {} holds no time in {}/{}", method, name,
                                     files[i].file().string(), group, stage.dataset));
       }
@@ -214,8 +217,7 @@ bool warm_alike(const Files& base, const Files& candidate, std::vector<std::stri
       if (warm_up_repetitions(file) != warm_up_repetitions(base.front())) {
         notes.push_back(
             fmt::format("times are not compared: {} leaves out {} repetitions to warm up, {} leaves out {}; "
-                        "run both with "
-                        "/driver/repetitions of 2 or more",
+                        "run both with /driver/repetitions of 2 or more",
                         base.front().file().string(), warm_up_repetitions(base.front()), file.file().string(),
                         warm_up_repetitions(file)));
         return false;
@@ -232,8 +234,13 @@ void compare_times(const Files& base, const Files& candidate, const CompareOptio
   for (const ResultReader& file : base) comparison.base.push_back(stage_times(file, repetitions));
   for (const ResultReader& file : candidate) comparison.candidate.push_back(stage_times(file, repetitions));
   if (!warm_alike(base, candidate, comparison.notes)) return;
-  note_missing_times(base, comparison.base, comparison.candidate, comparison.notes);
-  note_missing_times(candidate, comparison.candidate, comparison.base, comparison.notes);
+  StagesTimed timed;
+  for (const auto* side : {&comparison.base, &comparison.candidate})
+    for (const StageTimes& process : *side)
+      for (const auto& [method, times] : process)
+        for (const auto& [stage, seconds] : times) timed[method].insert(stage);
+  note_missing_times(base, comparison.base, timed, comparison.notes);
+  note_missing_times(candidate, comparison.candidate, timed, comparison.notes);
 
   const bool absolute = comparison.machine.comparable;
   const std::vector<Sample> samples =
