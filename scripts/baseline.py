@@ -100,7 +100,11 @@ def differences(baseline, measured, with_times=True):
     for place in sorted(before.keys() | now.keys()):
         old, new = before.get(place), now.get(place)
         if place.startswith("/time_ratios/"):
-            if with_times and old is not None and new is not None and not 1 / RATIO_FACTOR <= new / old <= RATIO_FACTOR:
+            if not with_times or old is None or new is None:
+                continue
+            if not isinstance(old, (int, float)) or not old > 0:
+                lines.append(f"{place}: {old} is no ratio: the baseline is damaged")
+            elif not 1 / RATIO_FACTOR <= new / old <= RATIO_FACTOR:
                 lines.append(f"{place}: {old} became {new}, more than a factor of {RATIO_FACTOR:g}")
         elif old != new:
             lines.append(f"{place}: {old} became {new}")
@@ -118,8 +122,13 @@ def check(program, folder, with_times=True):
         if not os.path.exists(file):
             lines = ["no such baseline"]
         else:
-            with open(file, encoding="utf-8") as stream:
-                lines = differences(json.load(stream), measure(program, scene), with_times)
+            try:
+                with open(file, encoding="utf-8") as stream:
+                    baseline = json.load(stream)
+            except ValueError as error:
+                lines = [f"the baseline is damaged: {error}"]
+            else:
+                lines = differences(baseline, measure(program, scene), with_times)
         for line in lines:
             print(f"{os.path.relpath(file, ROOT)}: {line}")
         wrong += len(lines)

@@ -7,6 +7,7 @@ verdict is the worst of these words, and console, verdict.md, junit.xml and exit
 
 is the outcome where a program did not even come to be: what a step ("build") of a side ("base", "candidate") broke on."""
 
+import argparse
 import collections
 import dataclasses
 import itertools
@@ -176,17 +177,20 @@ def tell(evidence, folder, effort=""):
     return EXIT_CODES[word]
 
 
-def main(words):
-    folder, side, step, message, log = words
+def main(words=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("folder", "side", "step", "message", "log"):
+        parser.add_argument(name)
+    arguments = parser.parse_args(words)
     try:
-        with open(log, encoding="utf-8", errors="replace") as stream:
+        with open(arguments.log, encoding="utf-8", errors="replace") as stream:
             text = stream.read()
     except OSError as error:
         text = str(error)
-    code = tell(Evidence(failure=Failure(side, step, message, text)), folder)
-    print(f"the whole log: {log}", file=sys.stderr)
+    code = tell(Evidence(failure=Failure(arguments.side, arguments.step, arguments.message, text)), arguments.folder)
+    print(f"the whole log: {arguments.log}", file=sys.stderr)
     return code
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -95,8 +95,11 @@ class Regression:
 
     @staticmethod
     def subprocess_run(command, environment):
-        return subprocess.run(command, cwd=ROOT, env=dict(os.environ, **environment), capture_output=True, text=True,
-                              check=False, stdin=subprocess.DEVNULL)
+        try:
+            return subprocess.run(command, cwd=ROOT, env=dict(os.environ, **environment), capture_output=True, text=True,
+                                  check=False, stdin=subprocess.DEVNULL)
+        except OSError as error:  # no program at all
+            return subprocess.CompletedProcess(command, 126, "", str(error))
 
     def result(self, name, index):
         return os.path.join(self.folder, f"{name}-{index}.h5")
@@ -214,6 +217,17 @@ def gather(regression, arguments, evidence):
         evidence.failure = outcome.Failure(error.side, "run", str(error), error.log)
 
 
+def share(text):
+    number = float(text)
+    if not 0.0 <= number < math.inf:
+        raise ValueError
+    return number
+
+
+def no_program(side, why, folder):
+    return outcome.tell(outcome.Evidence(failure=outcome.Failure(side, "run", f"the {side}'s program: {why}", "")), folder)
+
+
 def main(words=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--base", required=True, metavar="PROGRAM")
@@ -225,7 +239,7 @@ def main(words=None):
     parser.add_argument("--most", type=int, default=24, help="rounds at most (24)")
     parser.add_argument("--threshold", default="0.05", help="least effect that matters (0.05)")
     parser.add_argument("--allow", action="append", default=[], metavar="COUNTER", help="counter that may differ")
-    parser.add_argument("--instructions", default="0.01", help="least change of instructions that matters; 0: no callgrind")
+    parser.add_argument("--instructions", type=share, default=0.01, help="least change of instructions that matters; 0: no callgrind")
     parser.add_argument("--out", required=True, help="folder of results, tables and reports")
     arguments = parser.parse_args(words)
     if not 1 <= arguments.pairs <= arguments.most:
@@ -239,13 +253,18 @@ def main(words=None):
     for name, program in zip(NAMES, (arguments.base, arguments.base, arguments.candidate)):
         programs[name] = os.path.join(arguments.out, "bin", name, "lmdbench")
         os.makedirs(os.path.dirname(programs[name]), exist_ok=True)
-        shutil.copy2(program, programs[name])
+        try:
+            shutil.copy2(program, programs[name])
+        except OSError as error:
+            return no_program("candidate" if name == "cand" else "base", error, arguments.out)
+    if arguments.judge and not os.path.isfile(arguments.judge):
+        return no_program("judge", f"no file {arguments.judge}", arguments.out)
     scene = [os.path.abspath(arguments.experiment)] + [word for pair in arguments.set for word in ("--set", pair)]
     # A copy with a name of its own: if the judge fails, the candidate is at fault.
     own = not arguments.judge or os.path.samefile(arguments.judge, arguments.candidate)
     regression = Regression(programs, programs["cand"] if own else os.path.abspath(arguments.judge), scene, results,
                             arguments.threshold, arguments.allow, say=lambda text: print(text, file=sys.stderr))
-    evidence, started = outcome.Evidence(share=float(arguments.instructions)), time.monotonic()
+    evidence, started = outcome.Evidence(share=arguments.instructions), time.monotonic()
     gather(regression, arguments, evidence)
     return outcome.tell(evidence, arguments.out, f"; {regression.rounds} rounds, {time.monotonic() - started:.0f} s")
 

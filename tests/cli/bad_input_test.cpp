@@ -177,6 +177,9 @@ TEST_F(BadInput, MisspeltCommandsAndOptionsAreNamedWithTheNearest) {
 TEST_F(BadInput, CommandLine) {
   EXPECT_EQ(lmdbench("run").code, USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0").code, USAGE);
+  for (const char* line : {"path info x.tum --rate nan", "stability x.json --seconds -nan",
+                           "query --moving sphere --fixed sphere --cutoff nan"})
+    EXPECT_EQ(lmdbench(line).code, USAGE) << line;
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff -1").code, USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff nan").code, USAGE);
   EXPECT_EQ(lmdbench("query --moving sphere --fixed sphere --cutoff 0.1 --method magic").code, USAGE);

@@ -245,8 +245,10 @@ TEST_F(CompareCommand, AFileThatIsNoResult) {
 }
 
 TEST_F(CompareCommand, WrongUsage) {
-  for (const std::string arguments : {"", "a.h5", "a.h5 b.h5 --base a.h5", "--base a.h5", "--candidate a.h5",
-                                      "a.h5 b.h5 --threshold -1", "--base a.h5 a.h5 --candidate b.h5"})
+  for (const std::string arguments :
+       {"", "a.h5", "a.h5 b.h5 --base a.h5", "--base a.h5", "--candidate a.h5", "a.h5 b.h5 --threshold -1",
+        "--base a.h5 a.h5 --candidate b.h5", "a.h5 b.h5 --threshold nan", "a.h5 b.h5 --false-alarm NaN",
+        "a.h5 b.h5 --tolerance -nan"})
     EXPECT_EQ(compare(arguments).code, 2) << arguments;
 }
 

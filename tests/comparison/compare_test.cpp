@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using testing::ScratchDirectory;
 using testing::SyntheticResult;
 using Paths = std::vector<std::filesystem::path>;
@@ -43,6 +44,10 @@ class Compare : public ::testing::Test {
   ScratchDirectory scratch_;
   int counter_ = 0;
 };
+
+std::string refusal(const Paths& base, const Paths& candidate, const CompareOptions& options = {}) {
+  return testing::message_of<UsageError>([&] { compare_results(base, candidate, options); });
+}
 
 TEST_F(Compare, OneProcessASideIsUnsureOfTimesAndSureOfResults) {
   const Comparison same = compare_results(side({}, "a", 1), side({}, "b", 1), {});
@@ -146,6 +151,66 @@ TEST_F(Compare, OnlyAsManyRepetitionsAsAllHave) {
   EXPECT_THROW(compare_results(side({}, "a", 1), side(none, "b", 1), {}), InputError);
 }
 
+TEST_F(Compare, ColdProcessesAreNotComparedWithWarmOnes) {
+  SyntheticResult cold;
+  cold.repetitions = 1;
+  cold.warm_up = 0;
+  const Comparison found = compare_results(side({}, "a", 6), side(cold, "b", 6), {});
+  EXPECT_EQ(found.verdict, Verdict::UNSURE);
+  EXPECT_TRUE(found.timings.empty());
+  EXPECT_THAT(found.notes, Contains(HasSubstr("run both with /driver/repetitions of 2 or more")));
+  EXPECT_EQ(compare_results(side(cold, "c", 6), side(cold, "d", 6), {}).verdict, Verdict::SAME);
+}
+
+TEST_F(Compare, StagesWithoutTimesAreNamed) {
+  SyntheticResult search, certified, elsewhere;
+  search.lost_times = "original/search";
+  certified.lost_times = "certified/local update";
+  elsewhere.processor = certified.processor = "processor B";
+  const Comparison without = compare_results(side({}, "a", 4), side(search, "b", 4), {});
+  EXPECT_EQ(without.timings.size(), 2U);
+  EXPECT_THAT(without.notes,
+              Contains(HasSubstr("b0.h5 holds no time in /methods/original/global_search_time")));
+  Paths with_both = side(search, "f", 1), also_without = side(search, "g", 1);
+  with_both.push_back(side({}, "h", 1)[0]);
+  EXPECT_THAT(compare_results(with_both, also_without, {}).notes,
+              IsSupersetOf({HasSubstr("f0.h5 holds no time"), HasSubstr("g0.h5 holds no time")}));
+  Paths others = side(elsewhere, "c", 3);
+  others.push_back(side(certified, "d", 1)[0]);
+  const Comparison ratios = compare_results(side({}, "e", 4), others, {});
+  EXPECT_TRUE(ratios.timings.empty());
+  EXPECT_THAT(ratios.notes,
+              Contains(HasSubstr("d0.h5 holds no time in /methods/certified/local_update_time")));
+}
+
+TEST_F(Compare, AFileOfBothSidesIsNoReplicate) {
+  const Paths a = side({}, "a", 2);
+  EXPECT_THAT(refusal(a, a), HasSubstr("the same file as"));
+  EXPECT_EQ(compare_results({a[0]}, {a[0]}, {}).verdict, Verdict::UNSURE);
+}
+
+TEST_F(Compare, OtherProbesAreANote) {
+  SyntheticResult often, seldom;
+  often.patch = R"({"probes": {"truth": {"stride_frames": 4}}})";
+  seldom.patch = R"({"probes": {"truth": {"stride_frames": 8}}})";
+  const Comparison found = compare_results(side(often, "a", 6), side(seldom, "b", 6), {});
+  EXPECT_EQ(found.verdict, Verdict::SAME);
+  EXPECT_THAT(found.notes, Contains(HasSubstr("/probes/truth/stride_frames differs: 4 became 8")));
+}
+
+TEST_F(Compare, TheHeadlineSaysWhatWasForgiven) {
+  CompareOptions tolerant, lenient;
+  tolerant.exact.tolerance_relative = 1e-9;
+  lenient.exact.allowed_counters = {"node_pairs"};
+  const auto headline = [&](const CompareOptions& options) {
+    return comparison_text(compare_results(side({}, "a", 6), side({}, "b", 6), options));
+  };
+  EXPECT_THAT(headline({}), HasSubstr("same: results are the same bits, and"));
+  EXPECT_THAT(headline(tolerant), HasSubstr("same: results agree within the tolerance, and"));
+  EXPECT_THAT(headline(lenient),
+              HasSubstr("same: results are the same bits but for the allowed counters, and"));
+}
+
 TEST_F(Compare, MachinesThatDifferAreComparedByRatios) {
   SyntheticResult other, changed;
   other.processor = changed.processor = "processor B";
@@ -174,10 +239,6 @@ TEST_F(Compare, MachinesThatDifferAreComparedByRatios) {
     EXPECT_EQ(compare_results(side({}, "a", 5), side(changed, "b", 5), {}).verdict, Verdict::UNSURE)
         << method << ": no ratio says which of its two methods changed";
   }
-}
-
-std::string refusal(const Paths& base, const Paths& candidate, const CompareOptions& options = {}) {
-  return testing::message_of<UsageError>([&] { compare_results(base, candidate, options); });
 }
 
 TEST_F(Compare, ResultsOfOtherFramesAreRefusedInOneLine) {

@@ -13,7 +13,9 @@
 namespace lmdbench {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::Field;
 using ::testing::IsEmpty;
 using testing::ScratchDirectory;
 using testing::SyntheticResult;
@@ -126,6 +128,107 @@ TEST_F(ExactDifferences, WhatARunWasAskedNotToKeepIsNoLoss) {
   EXPECT_FALSE(differences(lists, none).empty());
 }
 
+TEST_F(ExactDifferences, WhatAllMethodsShareIsCompared) {
+  SyntheticResult base;
+  base.more = {{"/reference/frame", {0, 4, 8}},
+               {"/reference/lmd_count", {1, 2, 3}},
+               {"/reference/movers/lmd_count", {1, 2, 3}},
+               {"/crosscheck/fcl/frame", {0, 5}},
+               {"/crosscheck/fcl/agrees", {1, 1}},
+               {"/polylines/frame", {3, 6}},
+               {"/polylines/frame_offset", {0, 1, 2}},
+               {"/polylines/closed", {1, 1}},
+               {"/summary/frames_in_contact", {7}},
+               {"/scene/in_contact", {0, 0, 0, 1, 1, 1, 1, 1, 1, 1}},
+               {"/scene/warnings", {1, 2}},
+               {"/scene/fixed_0/position", {0, 0, 0, 1, 1, 1, 1, 1, 1, 1}},
+               {"/scene/moving/deformation/moved_vertices", {0, 0, 0, 1, 1, 1, 1, 1, 1, 1}}};
+  const auto found = [&](const SyntheticResult& candidate) {
+    std::vector<Difference> all = differences(base, candidate);
+    for (Difference& d : scene_differences(open(base, "a.h5"), open(candidate, "b.h5"))) all.push_back(d);
+    return all;
+  };
+  EXPECT_THAT(found(base), IsEmpty());
+  const std::map<std::string, std::optional<std::int64_t>> frames = {
+      {"/reference/lmd_count", 8},   {"/reference/movers/lmd_count", 8},
+      {"/crosscheck/fcl/agrees", 5}, {"/polylines/closed", 6},
+      {"/scene/in_contact", 9},      {"/scene/moving/deformation/moved_vertices", 9}};
+  for (const auto& [path, values] : base.more) {
+    SyntheticResult other = base, lost = base;
+    ++other.more[path].back();
+    lost.more.erase(path);
+    if (path == "/scene/warnings") {
+      EXPECT_THAT(found(other), IsEmpty()) << "notes for people";
+      continue;
+    }
+    const std::vector<Difference> changed = found(other);
+    ASSERT_FALSE(changed.empty()) << path;
+    EXPECT_EQ(changed.front().dataset, path);
+    const auto frame = frames.find(path);
+    if (frame != frames.end()) {
+      EXPECT_EQ(changed.front().frame, frame->second) << path;
+    }
+    if (path == "/scene/fixed_0/position") {
+      EXPECT_EQ(changed.front().frame, std::nullopt) << "a row an instance";
+      EXPECT_EQ(found(lost).front().dataset, "/scene/fixed_0");
+    } else {
+      EXPECT_FALSE(found(lost).empty()) << path;
+    }
+  }
+  const std::vector<Difference> all = differences(base, {});
+  for (const char* group : {"/reference", "/crosscheck/fcl", "/polylines"})
+    EXPECT_THAT(all, Contains(Field(&Difference::dataset, group)));
+  EXPECT_THAT(additions(open({}, "a.h5"), open(base, "b.h5")), Contains("/polylines"));
+}
+
+TEST_F(ExactDifferences, RowsOfOneFrameAreCompared) {
+  SyntheticResult base, candidate;
+  base.more = {{"/reference/frame", {0, 4, 8}}, {"/reference/lmd_count", {1, 2, 3}}};
+  candidate.more = {{"/reference/frame", {0, 2, 4, 6, 8}}, {"/reference/lmd_count", {1, 9, 2, 9, 4}}};
+  std::vector<Difference> found = differences(base, candidate);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].dataset, "/reference/frame");
+  EXPECT_EQ(found[0].frame, 2) << "that one side alone has";
+  EXPECT_EQ(found[0].base, "absent");
+  EXPECT_EQ(found[0].rows, 2U);
+  EXPECT_EQ(found[1].dataset, "/reference/lmd_count");
+  EXPECT_EQ(found[1].frame, 8);
+  EXPECT_EQ(found[1].base, 3);
+  EXPECT_EQ(found[1].candidate, 4);
+  EXPECT_EQ(found[1].rows, 1U);
+  base.patch = R"({"probes": {"truth": {"stride_frames": 4}}})";
+  candidate.patch = R"({"probes": {"truth": {"stride_frames": 2}}})";
+  found = differences(base, candidate);
+  ASSERT_EQ(found.size(), 1U) << "it was asked for other frames";
+  EXPECT_EQ(found[0].dataset, "/reference/lmd_count");
+  base.more = {{"/methods/m/global_frame", {0, 4, 8}}, {"/methods/m/candidates", {1, 2, 3}}};
+  candidate.more = {{"/methods/m/global_frame", {0, 8}}, {"/methods/m/candidates", {1, 4}}};
+  found = differences(base, candidate);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].dataset, "global_frame");
+  EXPECT_EQ(found[0].frame, 4);
+  EXPECT_EQ(found[1].dataset, "candidates");
+  EXPECT_EQ(found[1].frame, 8);
+}
+
+TEST_F(ExactDifferences, WhatWasNotProbedIsNoLossAndNamed) {
+  SyntheticResult base, off, other_summary;
+  base.patch = R"({"probes": {"truth": {"stride_frames": 4}}, "record": {"frames": true}})";
+  base.more = {{"/reference/frame", {0, 4, 8}},
+               {"/methods/certified/truth/frame", {0, 4, 8}},
+               {"/methods/certified/lmd_age", {1}}};
+  other_summary = base;
+  off.patch = R"({"probes": {"truth": {"stride_frames": 0}}, "record": {"frames": false}})";
+  off.summary = other_summary.summary = 0.75;  // errors of the force in probed frames
+  EXPECT_THAT(differences(base, off), IsEmpty());
+  EXPECT_THAT(additions(open(off, "a.h5"), open(base, "b.h5")), IsEmpty());
+  EXPECT_EQ(differences(base, other_summary).size(), 2U);
+  const std::vector<Difference> kept = kept_differences(open(base, "a.h5"), open(off, "b.h5"));
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(kept[0].dataset, "/provenance/experiment:/probes/truth/stride_frames");
+  EXPECT_EQ(kept[1].dataset, "/provenance/experiment:/record/frames");
+}
+
 TEST_F(ExactDifferences, ACounterThatWasAlwaysZeroIsNoLoss) {
   SyntheticResult base;
   base.idle_counter = "cache_hits";
@@ -175,6 +278,55 @@ TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
   ASSERT_EQ(input.size(), 1U);
   EXPECT_EQ(input[0].dataset, "/provenance/inputs/sha256:mesh:moving");
   EXPECT_THAT(experiment_differences(open({}, "a.h5"), open(more, "b.h5")), IsEmpty());
+}
+
+TEST_F(ExactDifferences, SettingsOfOneSideAloneAreNamedWhereTheyHaveNoDefault) {
+  const auto found = [&](const std::string& patch) {
+    SyntheticResult other;
+    other.patch = patch;
+    return experiment_differences(open({}, "a.h5"), open(other, "b.h5"));
+  };
+  const std::vector<Difference> frames = found(R"({"frames": 5})");
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].dataset, "/provenance/experiment:/frames");
+  EXPECT_EQ(frames[0].base, 10) << "all of the path";
+  EXPECT_TRUE(is_of_frames(frames[0]));
+  EXPECT_THAT(found(R"({"frames": 10})"), IsEmpty());
+  const std::vector<Difference> cutoff = found(R"({"force": {"cutoff_m": null, "cutoff_diagonal": 0.1}})");
+  ASSERT_EQ(cutoff.size(), 2U);
+  EXPECT_EQ(cutoff[0].candidate, "absent");
+  EXPECT_EQ(cutoff[1].base, "absent");
+  EXPECT_FALSE(is_of_frames(cutoff[0]));
+  EXPECT_THAT(found(R"({"force": {"clip": "device"}})"), IsEmpty()) << "a default of another version";
+}
+
+TEST_F(ExactDifferences, BlocksOfFramesAreASetting) {
+  SyntheticResult few, many;
+  few.patch = R"({"driver": {"block_frames": 10}})";
+  many.patch = R"({"driver": {"block_frames": 100}})";
+  EXPECT_EQ(experiment_differences(open(few, "a.h5"), open(many, "b.h5")).size(), 1U);
+}
+
+TEST_F(ExactDifferences, BothFormsOfASceneAreOne) {
+  const auto count = [&](const std::string& base, const std::string& candidate) {
+    SyntheticResult a, b;
+    a.patch = base;
+    b.patch = candidate;
+    return experiment_differences(open(a, "a.h5"), open(b, "b.h5")).size();
+  };
+  const std::string by_kind =
+      R"({"moving": {"mesh": "m"}, "fixed": [{"mesh": "f", "pose": 1}], "path": {"file": "p", "gap": 1},
+          "movers": [{"mesh": "g", "pose": 2, "path": {"way_diagonals": 0.5, "gap": 1}}]})";
+  const auto objects = [](const std::string& name, const std::string& pose) {
+    return R"({"moving": null, "path": null, "objects": [{"name": ")" + name +
+           R"(", "mesh": "m", "pose": 0, "motion": {"path": "q", "gap": 1}},
+               {"mesh": "g", "pose": 2, "motion": {"sway": {"way_diagonals": 0.5}, "gap": 1}},
+               {"name": "table", "mesh": "f", "pose": )" +
+           pose + "}]}";
+  };
+  EXPECT_EQ(count(by_kind, objects("peg", "1")), 0U);
+  EXPECT_EQ(count(objects("pin", "1"), objects("peg", "1")), 0U);
+  EXPECT_EQ(count(by_kind, objects("peg", "3")), 1U);
 }
 
 TEST_F(ExactDifferences, NamesAndPlacesOfMeshFilesAreNoDifference) {

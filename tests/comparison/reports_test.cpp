@@ -34,14 +34,16 @@ TEST_F(Reports, JsonHasTheKeysOfTheContract) {
   SyntheticResult candidate;
   candidate.frame_with_lost_lmd = 4;
   const auto json = nlohmann::ordered_json::parse(comparison_json(compare_with(candidate)));
-  EXPECT_THAT(keys(json), ElementsAre("verdict", "differences", "timings", "machine"));
+  EXPECT_THAT(keys(json), ElementsAre("verdict", "differences", "timings", "machine", "notes"));
   EXPECT_EQ(json["verdict"], "changed");
   EXPECT_THAT(keys(json["differences"][0]), ElementsAre("method", "dataset", "frame", "base", "candidate"));
   EXPECT_EQ(json["differences"][0]["method"], "certified");
   EXPECT_EQ(json["differences"][0]["dataset"], "lmd_count");
   EXPECT_EQ(json["differences"][0]["frame"], 4);
-  EXPECT_THAT(keys(json["timings"][0]),
-              ElementsAre("method", "stage", "ratio", "low", "high", "verdict", "detectable"));
+  EXPECT_THAT(keys(json["timings"][0]), ElementsAre("method", "stage", "ratio", "low", "high", "verdict",
+                                                    "detectable", "processes_needed"));
+  EXPECT_GT(json["timings"][0]["processes_needed"], 1);
+  EXPECT_THAT(json["notes"].back().get<std::string>(), HasSubstr("one process a side"));
   EXPECT_TRUE(json["timings"][0]["low"].is_null()) << "one process a side has no interval";
   EXPECT_TRUE(json["timings"][0]["high"].is_null());
   EXPECT_EQ(json["machine"]["comparable"], true);
@@ -71,6 +73,28 @@ TEST_F(Reports, JunitCountsFailures) {
   EXPECT_THAT(
       xml, HasSubstr(
                "<testcase classname=\"lmdbench.compare.original\" name=\"search\"><failure type=\"slower\""));
+}
+
+TEST_F(Reports, JunitSaysThatNoTimeWasCompared) {
+  SyntheticResult cold;
+  cold.repetitions = 1;
+  cold.warm_up = 0;
+  const std::string xml = comparison_junit(compare_with(cold));
+  EXPECT_THAT(xml, HasSubstr("tests=\"2\" failures=\"0\" skipped=\"1\""));
+  EXPECT_THAT(xml, HasSubstr("name=\"times\"><skipped message=\"no time was compared: "));
+}
+
+TEST(DifferenceText, NamesTheElementOfALongRow) {
+  const std::vector<double> base(40, 0.25);
+  std::vector<double> candidate = base;
+  candidate[38] = 0.5;
+  EXPECT_EQ(difference_text({"m", "movers/force", 3, base, candidate, 1}),
+            "m: movers/force differs in frame 3: element 38: 0.25 became element 38: 0.5");
+  std::string accents;
+  for (int i = 0; i < 80; ++i) accents += "\u00e9";
+  EXPECT_THAT(difference_text({"", "/name", std::nullopt, accents, 1, 0}), HasSubstr("\u00e9... became 1"));
+  EXPECT_EQ(difference_text({"", "/loop/hand", std::nullopt, nullptr, 1, 0}),
+            "/loop/hand differs: null became 1");
 }
 
 TEST_F(Reports, GoogleBenchmarkFormat) {

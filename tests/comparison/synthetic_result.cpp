@@ -74,6 +74,7 @@ void write_times(ResultWriter& writer, const SyntheticResult& result, const std:
     for (int c = 0; c < columns; ++c) {
       double time = seconds * factor * (r == 0 ? 5.0 : 1.0) + (c == 0 ? result.jitter : 0.0);
       if (r == 1 && c == result.spike_frame) time += 1e-3;
+      if (stage == result.lost_times) time = std::numeric_limits<double>::quiet_NaN();
       times.push_back(time);
     }
   }
@@ -140,6 +141,7 @@ nlohmann::json experiment_of(const SyntheticResult& result) {
                             {"methods", nlohmann::json::array()}};
   for (const std::string& method : result.methods)
     experiment["methods"].push_back({{"name", method}, {"label", method}});
+  experiment.merge_patch(nlohmann::json::parse(result.patch));
   return experiment;
 }
 
@@ -162,11 +164,12 @@ std::filesystem::path SyntheticResult::write(const std::filesystem::path& file) 
   writer.attribute("/scene", "cutoff_m", scene_cutoff > 0.0 ? scene_cutoff : cutoff);
   writer.attribute("/summary", "truth_of_every_frame", truth_of_every_frame);
   if (sweep) writer.attribute("/sweep", "name", std::string("budget"));
-  writer.attribute("/methods", "warm_up_repetitions", std::int64_t{1});
+  writer.attribute("/methods", "warm_up_repetitions", std::int64_t{warm_up});
   std::vector<double> time;
   for (int f = 0; f < FRAMES; ++f) time.push_back(0.001 * f);
   write_real(writer, "/path/time", time, {FRAMES}, "s");
   for (const std::string& method : methods) write_method(writer, *this, method);
+  for (const auto& [path, values] : more) write_integers(writer, path, values);
   writer.commit();
   return file;
 }

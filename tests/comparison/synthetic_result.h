@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -38,9 +39,13 @@ struct SyntheticResult {
   double true_jumps = 3.0;           ///< In the summary
   std::string truth_of_every_frame;  ///< Label of a method, "" for none
   int repetitions = 3;
-  bool times = true;          ///< As /record/timings
-  bool counters = true;       ///< As /record/counters
-  std::string record = "{}";  ///< JSON of /record in the experiment
+  int warm_up = 1;                                        ///< As the attribute says
+  std::string lost_times;                                 ///< "original/search": NaN throughout
+  bool times = true;                                      ///< As /record/timings
+  bool counters = true;                                   ///< As /record/counters
+  std::string record = "{}";                              ///< JSON of /record in the experiment
+  std::string patch = "{}";                               ///< JSON merge patch of the experiment
+  std::map<std::string, std::vector<std::int64_t>> more;  ///< Other datasets
 
   std::filesystem::path write(const std::filesystem::path& file) const;
 };

@@ -98,6 +98,15 @@ class BaselineTest(Scratch):
             self.assertIn(f"{name}.json: no such baseline", text)
         self.assertIn(f"{1 + len(others)} differences (remedy: ", text)
 
+    def test_a_damaged_baseline_is_named(self):
+        content = baseline_of("combs")
+        content["time_ratios"]["improved / original"] = 0
+        self.assertEqual(baseline.differences(content, content), ["/time_ratios/improved / original: 0 is no ratio: the baseline is damaged"])
+        for name in baseline.SCENES:
+            self.write(name + ".json", "{")
+        text = self.printed(baseline.main, "check", "--program", PROGRAM, "--folder", self.folder, code=1)
+        self.assertIn("combs.json: the baseline is damaged: ", text)
+
     def test_missing_baseline_and_program(self):
         self.assertIn("remedy", self.printed(baseline.main, "check", "--program", "/does/not/exist", "--folder", self.folder, code=4))
 
@@ -120,6 +129,35 @@ class RegressionScriptTest(unittest.TestCase):
             done = call(SCRIPTS / "ci_regression.sh", *arguments)
             self.assertEqual(done.returncode, 2, arguments)
             self.assertIn("remedy", done.stderr, arguments)
+
+
+class WrongCallsTest(Scratch):
+    """No traceback, and the exit code of the contract."""
+
+    def regression(self, *arguments):
+        done = call(sys.executable, SCRIPTS / "ci" / "regression.py", "--experiment", "none.json", "--out", self.path("out"), *arguments)
+        self.assertNotIn("Traceback", done.stderr)
+        return done
+
+    def test_programs_that_are_not_there(self):
+        text = self.write("text", "no program")
+        for base, candidate, word, code in (("/none", PROGRAM, "no comparison", 3), (self.folder, PROGRAM, "no comparison", 3),
+                                            (text, PROGRAM, "no comparison", 3), (PROGRAM, "/none", "broken", 1)):
+            done = self.regression("--base", base, "--candidate", candidate)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(f"verdict: {word} (", done.stdout)
+        self.assertEqual(self.regression("--base", PROGRAM, "--candidate", PROGRAM, "--judge", "/none").returncode, 3)
+
+    def test_what_is_no_share(self):
+        for value in ("y", "nan", "-1", "inf"):
+            done = self.regression("--base", PROGRAM, "--candidate", PROGRAM, f"--instructions={value}")
+            self.assertEqual(done.returncode, 2, value)
+            self.assertIn("--instructions", done.stderr)
+
+    def test_an_outcome_of_nothing(self):
+        done = call(sys.executable, SCRIPTS / "ci" / "outcome.py")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("usage: ", done.stderr)
 
 
 def timing(verdict, low=0.98, stage="search"):

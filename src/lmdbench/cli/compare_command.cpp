@@ -4,12 +4,12 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/output_guard.h>
 #include <lmdbench/cli/commands.h>
+#include <lmdbench/cli/real_range.h>
 #include <lmdbench/comparison/compare.h>
 #include <lmdbench/comparison/comparison_text.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <memory>
@@ -80,12 +80,10 @@ int compare(CompareArguments& arguments) {
   if (!arguments.benchmark_base.empty())
     write_file_atomically(arguments.benchmark_base,
                           google_benchmark_json(comparison.base, comparison.machine.base));
-  if (arguments.json) {
-    for (const std::string& note : comparison.notes) spdlog::info("{}", note);
+  if (arguments.json)
     fmt::print("{}\n", comparison_json(comparison));
-  } else {
+  else
     fmt::print("{}", arguments.markdown ? comparison_markdown(comparison) : comparison_text(comparison));
-  }
   return exit_code(comparison.verdict);
 }
 
@@ -107,17 +105,17 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   command
       ->add_option("--threshold", arguments->options.least_effect,
                    "least relative change of a time that matters")
-      ->check(CLI::Range(0.0001, 10.0))
+      ->check(real_range(CLI::Range(0.0001, 10.0)))
       ->capture_default_str();
   command
       ->add_option("--false-alarm", arguments->options.false_alarm,
                    "probability of a false \"slower\" over all stages together")
-      ->check(CLI::Range(1e-6, INTERVAL_ERROR))
+      ->check(real_range(CLI::Range(1e-6, INTERVAL_ERROR)))
       ->capture_default_str();
   command
       ->add_option("--tolerance", arguments->options.exact.tolerance_relative,
                    "real numbers may differ by this share of their row's largest; 0: the same bits")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(real_range(CLI::Range(0.0, 1.0)))
       ->capture_default_str();
   command->add_option("--allow", arguments->options.exact.allowed_counters, "counters that may differ");
   auto* json = command->add_flag("--json", arguments->json, "the comparison as JSON");

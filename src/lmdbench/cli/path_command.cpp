@@ -8,6 +8,7 @@
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/real_range.h>
 #include <lmdbench/mesh/placement.h>
 #include <lmdbench/motion/generate.h>
 #include <lmdbench/motion/interpolate.h>
@@ -252,7 +253,7 @@ void add_path_command(CLI::App& app) {
                            "specification of the path: check every frame's gap; exit code 1 below its floor");
   info_command
       ->add_option("--rate", arguments->rate, "frames a second for the speeds; the specification's if given")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(real_range(CLI::Range(1e-3, 1e6)))
       ->capture_default_str();
   add_common(info_command);
   info_command->callback([arguments] { info(*arguments); });

@@ -4,6 +4,7 @@
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
+#include <lmdbench/cli/real_range.h>
 #include <lmdbench/stability/stability_search.h>
 
 #include <CLI/CLI.hpp>
@@ -50,7 +51,7 @@ void add_stability_command(CLI::App& app, int& exit_status) {
   command->add_flag("--json", options->json, "a JSON array, one object a method");
   command
       ->add_option("--seconds", options->budget.seconds, "a method's search ends after this time, undecided")
-      ->check(CLI::PositiveNumber)
+      ->check(real_range(CLI::PositiveNumber))
       ->capture_default_str();
   command->add_option("--trials", options->budget.trials, "and after this many closed loops")
       ->check(CLI::PositiveNumber)

@@ -15,6 +15,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace lmdbench {
 namespace {
@@ -29,16 +30,18 @@ void refuse_realtime(const ResultReader& file) {
                      "clock beside each other");
 }
 
-Files open_side(const std::vector<std::filesystem::path>& names, const std::string& side) {
+/// @param seen files of both sides by their content
+Files open_side(const std::vector<std::filesystem::path>& names, const std::string& side,
+                std::map<std::string, std::string>& seen) {
   if (names.empty()) throw UsageError("", "--" + side, "no result file", "give at least one");
   Files files;
-  std::map<std::string, std::string> seen;
   for (const std::filesystem::path& name : names) {
     refuse_sweep(files.emplace_back(name));
     refuse_realtime(files.back());
-    const auto [found, fresh] = seen.emplace(sha256_of_file(name), name.string());
+    const auto [found, fresh] =
+        seen.emplace(sha256_of_file(name), fmt::format("{} of --{}", name.string(), side));
     if (!fresh)
-      throw UsageError(name.string(), "", "the same file as " + found->second + ", also given to --" + side,
+      throw UsageError(name.string(), "--" + side, "the same file as " + found->second,
                        "give every process' result once: a copy is no replicate");
   }
   return files;
@@ -170,11 +173,14 @@ std::vector<Sample> ratio_samples(const Comparison& comparison, const std::vecto
   return samples;
 }
 
-/// Labels timed on both sides, in the order of a result's reports.
+/// Labels timed in every process, in the order of a result's reports.
 std::vector<std::string> common_methods(const Comparison& comparison, const ResultReader& result) {
   std::vector<std::string> methods;
-  for (const auto& [method, times] : comparison.base.front())
-    if (comparison.candidate.front().contains(method)) methods.push_back(method);
+  const auto in_all = [](const std::vector<StageTimes>& processes, const std::string& method) {
+    return std::ranges::all_of(processes, [&](const StageTimes& times) { return times.contains(method); });
+  };
+  for (const std::string& method : result.groups("/methods"))
+    if (in_all(comparison.base, method) && in_all(comparison.candidate, method)) methods.push_back(method);
   const auto rank = [&](const std::string& label) {
     return result.integer_attribute("/methods/" + label, "method_order")
         .value_or(std::numeric_limits<std::int64_t>::max());
@@ -182,6 +188,41 @@ std::vector<std::string> common_methods(const Comparison& comparison, const Resu
   std::stable_sort(methods.begin(), methods.end(),
                    [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
   return methods;
+}
+
+using StagesTimed = std::map<std::string, std::set<std::string>>;
+
+/// Names stages that another process timed and one of these did not: they are not compared.
+void note_missing_times(const Files& files, const std::vector<StageTimes>& processes,
+                        const StagesTimed& timed, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const auto& [method, names] : timed) {
+      const std::string group = "/methods/" + method;
+      const auto found = processes[i].find(method);
+      if (!files[i].has(group)) continue;
+      for (const TimedStage& stage : stages()) {
+        const std::string name(stage.name);
+        if (!names.contains(name) || (found != processes[i].end() && found->second.contains(name))) continue;
+        notes.push_back(fmt::format("{}, {}: not compared, {} holds no time in {}/{}", method, name,
+                                    files[i].file().string(), group, stage.dataset));
+      }
+    }
+  }
+}
+
+/// A file of one repetition has no warm-up: its times are those of a cold process.
+bool warm_alike(const Files& base, const Files& candidate, std::vector<std::string>& notes) {
+  for (const Files* side : {&base, &candidate})
+    for (const ResultReader& file : *side)
+      if (warm_up_repetitions(file) != warm_up_repetitions(base.front())) {
+        notes.push_back(
+            fmt::format("times are not compared: {} leaves out {} repetitions to warm up, {} leaves out {}; "
+                        "run both with /driver/repetitions of 2 or more",
+                        base.front().file().string(), warm_up_repetitions(base.front()), file.file().string(),
+                        warm_up_repetitions(file)));
+        return false;
+      }
+  return true;
 }
 
 void compare_times(const Files& base, const Files& candidate, const CompareOptions& options,
@@ -192,6 +233,14 @@ void compare_times(const Files& base, const Files& candidate, const CompareOptio
   comparison.repetitions = repetitions;
   for (const ResultReader& file : base) comparison.base.push_back(stage_times(file, repetitions));
   for (const ResultReader& file : candidate) comparison.candidate.push_back(stage_times(file, repetitions));
+  if (!warm_alike(base, candidate, comparison.notes)) return;
+  StagesTimed timed;
+  for (const auto* side : {&comparison.base, &comparison.candidate})
+    for (const StageTimes& process : *side)
+      for (const auto& [method, times] : process)
+        for (const auto& [stage, seconds] : times) timed[method].insert(stage);
+  note_missing_times(base, comparison.base, timed, comparison.notes);
+  note_missing_times(candidate, comparison.candidate, timed, comparison.notes);
 
   const bool absolute = comparison.machine.comparable;
   const std::vector<Sample> samples =
@@ -221,7 +270,8 @@ void note_limits(Comparison& comparison) {
         "tell which of the two is slower",
         100.0 * CROSS_MACHINE_EFFECT));
   if (comparison.timings.empty()) {
-    comparison.notes.emplace_back("no time was compared: on two machines that takes two methods");
+    if (!comparison.machine.comparable)
+      comparison.notes.emplace_back("no time was compared: on two machines that takes two methods");
     return;
   }
   const std::size_t base = comparison.base.size(), candidate = comparison.candidate.size();
@@ -259,7 +309,10 @@ Verdict overall(const Comparison& comparison) {
 Comparison compare_results(const std::vector<std::filesystem::path>& base_names,
                            const std::vector<std::filesystem::path>& candidate_names,
                            const CompareOptions& options) {
-  const Files base = open_side(base_names, "base"), candidate = open_side(candidate_names, "candidate");
+  std::map<std::string, std::string> seen;
+  const Files base = open_side(base_names, "base", seen);
+  if (base_names.size() == 1 && candidate_names.size() == 1) seen.clear();  // a file with itself
+  const Files candidate = open_side(candidate_names, "candidate", seen);
   check_allowed(options.exact.allowed_counters, base.front(), candidate.front());
   check_replicates(base);
   check_replicates(candidate);
@@ -278,6 +331,14 @@ Comparison compare_results(const std::vector<std::filesystem::path>& base_names,
   std::ranges::move(of_scenes, std::back_inserter(comparison.differences));
   std::ranges::move(exact_differences(base.front(), candidate.front(), options.exact),
                     std::back_inserter(comparison.differences));
+  std::string kept;
+  for (const Difference& difference : kept_differences(base.front(), candidate.front()))
+    kept += (kept.empty() ? "" : "; ") + difference_text(difference);
+  if (!kept.empty())
+    comparison.notes.push_back("only what both were asked to probe and record is compared: " + kept);
+  const ExactOptions& exact = options.exact;
+  comparison.agreement = exact.tolerance_relative > 0.0 ? "agree within the tolerance" : "are the same bits";
+  if (!exact.allowed_counters.empty()) comparison.agreement += " but for the allowed counters";
   if (!same_true_steps(base.front(), candidate.front()))
     comparison.notes.emplace_back(
         "the true force is known in every frame of one side alone: numbers of its jumps are not compared");

@@ -34,7 +34,8 @@ struct MachineComparison {
 struct Comparison {
   Verdict verdict = Verdict::UNSURE;  ///< The worst of all: changed, slower, unsure, faster, same
   std::vector<Difference> differences;
-  std::vector<Timing> timings;  ///< By method, then in the order of `stages()`
+  std::string agreement = "are the same bits";  ///< What results do that do not differ
+  std::vector<Timing> timings;                  ///< By method, then in the order of `stages()`
   MachineComparison machine;
   std::vector<std::string> notes;  ///< Plain sentences that a reader must know
   std::size_t repetitions = 0;     ///< Measured repetitions used of every process
@@ -45,12 +46,14 @@ struct Comparison {
 /// Compares results; several files a side are replicates by process. Times are compared by stage
 /// and method if the machines are alike; else the times of methods relative to each other within
 /// every file, with a least effect of at least CROSS_MACHINE_EFFECT: same, or unsure, since a ratio
-/// that moved does not say which of the two did. Experiments with the same
-/// frames but other settings (force, methods, searches) are `changed`, settings first. Where one
-/// experiment made different scenes, that is `changed`, and no times are compared.
+/// that moved does not say which of the two did. Experiments with the same frames but other
+/// settings (force, methods, searches) are `changed`, settings first. Where one experiment made
+/// different scenes, that is `changed`, and no times are compared; nor are they between files that
+/// warm up and files that do not.
 /// @throws InputError  when a file is no result, or replicates of one side have different results
-/// @throws UsageError when a side has no file, one file twice or a sweep's file, if the sides'
-///   frames or inputs differ (DIFFERENT_EXPERIMENTS), or for an unknown allowed counter
+/// @throws UsageError when a side has no file or a sweep's file, if several files are not all
+///   different, if the sides' frames or inputs differ (DIFFERENT_EXPERIMENTS), or for an unknown
+///   allowed counter
 Comparison compare_results(const std::vector<std::filesystem::path>& base,
                            const std::vector<std::filesystem::path>& candidate,
                            const CompareOptions& options);

@@ -3,10 +3,12 @@
 #include <lmdbench/comparison/comparison_text.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace lmdbench {
 namespace {
@@ -84,13 +86,15 @@ std::string comparison_json(const Comparison& comparison) {
                                {"low", finite_or_null(t.estimate.has_interval() ? t.estimate.low : NAN)},
                                {"high", finite_or_null(t.estimate.high)},
                                {"verdict", verdict_name(t.verdict)},
-                               {"detectable", finite_or_null(t.estimate.detectable)}});
+                               {"detectable", finite_or_null(t.estimate.detectable)},
+                               {"processes_needed", or_null(t.processes_needed)}});
   const MachineComparison& machine = comparison.machine;
   json["machine"] = {{"comparable", machine.comparable},
                      {"reasons", machine.reasons},
                      {"build_notes", machine.build_notes},
                      {"base", facts_json(machine.base)},
                      {"candidate", facts_json(machine.candidate)}};
+  json["notes"] = comparison.notes;
   // Texts of a foreign file may not be UTF-8.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -153,34 +157,60 @@ std::string comparison_junit(const Comparison& comparison) {
       comparison.differences.empty() ? Verdict::SAME : Verdict::CHANGED, changes);
   for (const Timing& timing : comparison.timings)
     add(timing.method, timing.stage, timing.verdict, timing_text(timing));
+  if (comparison.timings.empty())
+    add("times", "times", Verdict::UNSURE,
+        fmt::format("no time was compared: {}", fmt::join(comparison.notes, "; ")));
   return fmt::format("{} tests=\"{}\" failures=\"{}\" skipped=\"{}\" errors=\"0\">\n{}</testsuite>\n",
-                     JUNIT_BEGINS, comparison.timings.size() + 1, failures, skipped, cases);
+                     JUNIT_BEGINS, std::max<std::size_t>(comparison.timings.size(), 1) + 1, failures, skipped,
+                     cases);
 }
 
 namespace {
 
-/// Values in full precision; long rows are cut.
-std::string shown(const nlohmann::json& value) {
-  constexpr std::size_t LONGEST = 100;
-  const bool is_nan = value.is_null() || (value.is_number_float() && std::isnan(value.get<double>()));
-  const std::string text = is_nan ? "NaN" : value.dump();
-  return text.size() <= LONGEST ? text : text.substr(0, LONGEST) + "...";
+constexpr std::size_t LONGEST = 100;
+
+std::string full_text(const nlohmann::json& value) {
+  const bool is_nan = value.is_number_float() && std::isnan(value.get<double>());
+  // Texts of a foreign file may not be UTF-8.
+  return is_nan ? "NaN" : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Values of base and candidate in full precision. Of long rows the first element that differs, by
+/// its place in the row; other long texts are cut.
+std::pair<std::string, std::string> shown(const Difference& d) {
+  std::pair<std::string, std::string> texts{full_text(d.base), full_text(d.candidate)};
+  if (std::max(texts.first.size(), texts.second.size()) <= LONGEST) return texts;
+  if (d.base.is_array() && d.candidate.is_array()) {
+    for (std::size_t i = 0; i < std::min(d.base.size(), d.candidate.size()); ++i) {
+      const std::string a = full_text(d.base[i]), b = full_text(d.candidate[i]);
+      if (a != b && std::max(a.size(), b.size()) <= LONGEST)
+        return {fmt::format("element {}: {}", i, a), fmt::format("element {}: {}", i, b)};
+    }
+  }
+  for (std::string* text : {&texts.first, &texts.second}) {
+    std::size_t end = LONGEST;  // of a whole UTF-8 character
+    while (end < text->size() && (static_cast<unsigned char>((*text)[end]) & 0xC0U) == 0x80U) --end;
+    if (text->size() > LONGEST) *text = text->substr(0, end) + "...";
+  }
+  return texts;
 }
 
 std::string headline(const Comparison& comparison) {
   switch (comparison.verdict) {
     case Verdict::SAME:
-      return "same: results are the same bits, and no stage is slower or faster beyond the least effect";
+      return fmt::format("same: results {}, and no stage is slower or faster beyond the least effect",
+                         comparison.agreement);
     case Verdict::FASTER:
-      return "faster: results are the same bits, and no stage is slower";
+      return fmt::format("faster: results {}, and no stage is slower", comparison.agreement);
     case Verdict::SLOWER:
-      return "slower: results are the same bits";
+      return fmt::format("slower: results {}", comparison.agreement);
     case Verdict::CHANGED:
       return "changed: results or counters differ";
     case Verdict::UNSURE:
       break;
   }
-  return "unsure: results are the same bits, but the times cannot be told apart";
+  return fmt::format("unsure: results {}, but {}", comparison.agreement,
+                     comparison.timings.empty() ? "no time was compared" : "the times cannot be told apart");
 }
 
 /// [us], or as it is where the machines cannot be compared.
@@ -216,7 +246,8 @@ std::string difference_text(const Difference& d) {
   text += " differs";
   if (d.frame) text += fmt::format(" in frame {}", *d.frame);
   if (d.rows > 1) text += fmt::format(" (and {} more {})", d.rows - 1, d.rows == 2 ? "row" : "rows");
-  return text + fmt::format(": {} became {}", shown(d.base), shown(d.candidate));
+  const auto [base, candidate] = shown(d);
+  return text + fmt::format(": {} became {}", base, candidate);
 }
 
 std::string timing_text(const Timing& t) {
@@ -256,9 +287,11 @@ std::string comparison_markdown(const Comparison& comparison) {
   std::string text = fmt::format("**{}**\n", headline(comparison));
   if (!comparison.differences.empty()) {
     text += "\n| method | dataset | frame | base | candidate |\n|---|---|---|---|---|\n";
-    for (const Difference& d : comparison.differences)
+    for (const Difference& d : comparison.differences) {
+      const auto [base, candidate] = shown(d);
       text += fmt::format("| {} | `{}` | {} | {} | {} |\n", d.method, d.dataset,
-                          d.frame ? std::to_string(*d.frame) : "", shown(d.base), shown(d.candidate));
+                          d.frame ? std::to_string(*d.frame) : "", base, candidate);
+    }
   }
   if (!comparison.timings.empty()) {
     text += fmt::format(

@@ -11,9 +11,11 @@ namespace lmdbench {
 
 /// {"verdict": "same|faster|slower|changed|unsure",
 ///  "differences": [{"method", "dataset", "frame", "base", "candidate"}],
-///  "timings": [{"method", "stage", "ratio", "low", "high", "verdict", "detectable"}],
-///  "machine": {"comparable", "reasons", "build_notes", "base", "candidate"}}
-/// "method" is null for data of no method, "frame" where a whole dataset differs; NaN is null.
+///  "timings": [{"method", "stage", "ratio", "low", "high", "verdict", "detectable",
+///               "processes_needed"}],
+///  "machine": {"comparable", "reasons", "build_notes", "base", "candidate"}, "notes": ["..."]}
+/// "method" is null for data of no method, "frame" where a whole dataset differs,
+/// "processes_needed" where sure; NaN is null.
 std::string comparison_json(const Comparison& comparison);
 
 /// One side's times in Google Benchmark's format (compare.py of libbenchmark-tools, Bencher,
@@ -23,7 +25,8 @@ std::string google_benchmark_json(const std::vector<StageTimes>& processes,
                                   const std::vector<std::pair<std::string, std::string>>& machine);
 
 /// JUnit XML for CI servers: a test case a method and stage and one for the exact part. Slower and
-/// changed are failures, unsure is skipped, each with its reasons.
+/// changed are failures, unsure is skipped, each with its reasons; so is "times" where none was
+/// compared.
 std::string comparison_junit(const Comparison& comparison);
 
 /// How both begin: what they may replace.

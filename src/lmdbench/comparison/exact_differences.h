@@ -37,8 +37,8 @@ inline bool reported_before(const Difference& a, const Difference& b) {
 }
 
 /// The haptic frame of a row of a dataset, from other datasets (results/README.md): `frame` or
-/// `frame_offset` of its own group, `global_frame` of the method for one row a search, and the row
-/// itself for one row a frame.
+/// `frame_offset` of its own group or the one around it, `global_frame` of the method for one row a
+/// search, and the row itself for one row a frame.
 /// @param group   "/methods/improved", or "/reference"
 /// @param dataset path inside the group
 /// @return unset where the file does not tell
@@ -52,9 +52,12 @@ struct ExactOptions {
 };
 
 /// Compares every deterministic dataset of every method, matched by label in any order: LMD sets,
-/// forces, counters, errors against truth; no times. A method or dataset of the candidate alone is
-/// no difference; one that it lost is, unless it is a counter that was 0 throughout. Numbers of
-/// true steps are left out without `same_true_steps`.
+/// forces, counters, errors against truth; no times. Also what all methods share: truth, FCL's
+/// cross-check, polylines, summary, frames in contact. A method or dataset of the candidate alone
+/// is no difference; one that it lost is, unless it is a counter that was 0 throughout, or the run
+/// was asked to keep none (`kept_differences`). Where lists of frames differ, rows of one frame are
+/// compared, and the lists, unless the runs were asked for other frames. Numbers of true steps are
+/// left out without `same_true_steps`.
 /// @return at most one entry a dataset, in the order of `reported_before`
 std::vector<Difference> exact_differences(const ResultReader& base, const ResultReader& candidate,
                                           const ExactOptions& options);
@@ -67,7 +70,8 @@ bool same_true_steps(const ResultReader& base, const ResultReader& candidate);
 std::vector<Difference> group_differences(const ResultReader& base, const ResultReader& candidate,
                                           const std::string& group);
 
-/// Parts of the candidate alone: "method certified", "improved/counters/new_counter".
+/// Parts of the candidate alone, unless the base was asked to keep none: "method certified",
+/// "improved/counters/new_counter", "/polylines".
 std::vector<std::string> additions(const ResultReader& base, const ResultReader& candidate);
 
 /// Names of the counters that a file holds, sorted.

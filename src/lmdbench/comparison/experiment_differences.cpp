@@ -17,6 +17,7 @@ namespace lmdbench {
 namespace {
 
 constexpr const char* EXPERIMENT = "/provenance/experiment";
+constexpr const char* ABSENT = "absent";
 
 std::map<std::string, std::string> input_hashes(const ResultReader& file) {
   const std::vector<std::string> roles = file.texts("/provenance/inputs/role");
@@ -26,23 +27,52 @@ std::map<std::string, std::string> input_hashes(const ResultReader& file) {
   return by_role;
 }
 
-/// The part of the experiment that decides results.
-nlohmann::json deciding_part(const ResultReader& file) {
+nlohmann::json experiment_of(const ResultReader& file) {
   const std::vector<std::string> texts = file.texts(EXPERIMENT);
   nlohmann::json experiment = nlohmann::json::parse(texts.empty() ? "" : texts.front(), nullptr, false);
   if (!experiment.is_object())
     throw InputError(file.file().string(), EXPERIMENT, "is no JSON object",
                      "make the file again with lmdbench run");
+  return experiment;
+}
+
+/// `moving`, `fixed`, `movers` and `path` in place of `objects` (experiment/objects.cpp).
+void tell_by_kind(nlohmann::json& experiment) {
+  const nlohmann::json objects = experiment.value("objects", nlohmann::json());
+  if (!objects.is_array()) return;
+  experiment.erase("objects");
+  for (nlohmann::json object : objects) {
+    if (!object.is_object()) continue;
+    object.erase("name");
+    nlohmann::json motion = object.value("motion", nlohmann::json());
+    object.erase("motion");
+    if (motion.is_object()) {
+      if (const nlohmann::json sway = motion.value("sway", nlohmann::json()); sway.is_object())
+        motion.update(sway);
+      if (motion.erase("path") > 0) motion["file"] = true;
+      motion.erase("sway");
+    }
+    if (!experiment.contains("moving")) {
+      object.erase("pose");
+      experiment["moving"] = object;
+      if (motion.is_object()) experiment["path"] = motion;
+    } else if (motion.is_object()) {
+      object["path"] = motion;
+      experiment["movers"].push_back(object);
+    } else {
+      experiment["fixed"].push_back(object);
+    }
+  }
+}
+
+/// The part of the experiment that decides results and times, with one form for each scene.
+nlohmann::json deciding_part(const ResultReader& file) {
+  nlohmann::json experiment = experiment_of(file);
   for (const char* key : {"$schema", "name", "title", "mesh_folder", "probes", "record"})
     experiment.erase(key);
-  if (experiment["path"].is_object()) experiment["path"].erase("file");  // its SHA-256 is compared
-  if (experiment["driver"].is_object()) {
-    experiment["driver"].erase("repetitions");
-    experiment["driver"].erase("block_frames");
-  }
-  // Of a file its content matters, not its name and place. A mesh without a deformation, also in
-  // old files, differs from one with it. The files with the vertices do not matter: their SHA-256
-  // is compared.
+  tell_by_kind(experiment);
+  // Of a file its SHA-256 is compared, not its name and place: of a mesh with the scene, of a path
+  // and of vertices beside it.
   const std::map<std::string, std::string> inputs = input_hashes(file);
   const auto tell_mesh = [&](nlohmann::json& mesh) {
     if (!mesh.is_object()) return;
@@ -50,24 +80,25 @@ nlohmann::json deciding_part(const ResultReader& file) {
       const auto found = inputs.find("mesh:" + name.get<std::string>());
       if (found != inputs.end()) mesh["mesh"] = found->second;
     }
+    if (!mesh.contains("deformation") || !mesh["deformation"].is_object()) return;
     nlohmann::json& deformation = mesh["deformation"];
-    if (!deformation.is_object()) return;
     if (deformation.erase("files") + deformation.erase("folder") > 0) deformation["files"] = true;
   };
-  tell_mesh(experiment["moving"]);
-  if (experiment["fixed"].is_array()) std::ranges::for_each(experiment["fixed"], tell_mesh);
-  // No movers, also in old files, is another scene than some.
-  nlohmann::json& movers = experiment["movers"];
-  if (movers.is_array())
-    for (nlohmann::json& mover : movers)
-      if (mover.is_object() && mover["path"].is_object() && mover["path"].erase("file") > 0)
-        mover["path"]["file"] = true;
-  if (nlohmann::json& objects = experiment["objects"]; objects.is_array())
-    for (nlohmann::json& object : objects) {
-      tell_mesh(object);
-      if (object.is_object() && object["motion"].is_object() && object["motion"].contains("path"))
-        object["motion"]["path"] = true;
-    }
+  const auto tell_path = [](nlohmann::json& owner) {
+    if (owner.is_object() && owner.contains("path") && owner["path"].is_object() &&
+        owner["path"].erase("file") > 0)
+      owner["path"]["file"] = true;
+  };
+  if (experiment.contains("path") && experiment["path"].is_object()) experiment["path"].erase("file");
+  if (experiment.contains("movers") && experiment["movers"].empty()) experiment.erase("movers");
+  if (experiment.contains("moving")) tell_mesh(experiment["moving"]);
+  for (const char* kind : {"fixed", "movers"}) {
+    if (!experiment.contains(kind)) continue;
+    std::ranges::for_each(experiment[kind], tell_mesh);
+    std::ranges::for_each(experiment[kind], tell_path);
+  }
+  if (experiment.contains("driver") && experiment["driver"].is_object())
+    experiment["driver"].erase("repetitions");
   nlohmann::json by_label = nlohmann::json::object();
   for (const nlohmann::json& method : experiment["methods"])
     if (method.is_object()) by_label[method.value("label", method.value("name", ""))] = method;
@@ -75,13 +106,34 @@ nlohmann::json deciding_part(const ResultReader& file) {
   return experiment;
 }
 
-/// First different values among keys of both sides; methods of one side are compared elsewhere.
+/// Whether a key has no default: without it an experiment says something else, whatever the version
+/// that wrote it.
+bool is_optional(const std::string& key) {
+  constexpr std::string_view KEYS[] = {
+      "frames",  "cutoff_m",    "cutoff_diagonal", "saturation_m", "saturation_cutoff",
+      "movers",  "deformation", "instances",       "diagonal_m",   "scale",
+      "centre",  "generator",   "files",           "file",         "way_diagonals",
+      "turn_rad"};
+  return std::ranges::find(KEYS, key) != std::end(KEYS);
+}
+
+/// First different values among keys of both sides, and optional ones of either; methods of one
+/// side are compared elsewhere.
 void compare_json(const nlohmann::json& base, const nlohmann::json& candidate, const std::string& pointer,
                   std::vector<Difference>& differences) {
+  const auto differ = [&](const std::string& place, const nlohmann::json& a, const nlohmann::json& b) {
+    differences.push_back({"", EXPERIMENT + std::string(":") + place, std::nullopt, a, b, 0});
+  };
   if (base.is_object() && candidate.is_object()) {
-    for (const auto& [key, value] : base.items())
+    for (const auto& [key, value] : base.items()) {
+      const std::string place = fmt::format("{}/{}", pointer, key);
       if (candidate.contains(key))
-        compare_json(value, candidate[key], fmt::format("{}/{}", pointer, key), differences);
+        compare_json(value, candidate[key], place, differences);
+      else if (is_optional(key))
+        differ(place, value, ABSENT);
+    }
+    for (const auto& [key, value] : candidate.items())
+      if (!base.contains(key) && is_optional(key)) differ(fmt::format("{}/{}", pointer, key), ABSENT, value);
     return;
   }
   if (base.is_array() && candidate.is_array() && base.size() == candidate.size()) {
@@ -89,8 +141,7 @@ void compare_json(const nlohmann::json& base, const nlohmann::json& candidate, c
       compare_json(base[i], candidate[i], fmt::format("{}/{}", pointer, i), differences);
     return;
   }
-  if (base != candidate)
-    differences.push_back({"", EXPERIMENT + std::string(":") + pointer, std::nullopt, base, candidate, 0});
+  if (base != candidate) differ(pointer, base, candidate);
 }
 
 void compare_inputs(const ResultReader& base, const ResultReader& candidate,
@@ -135,7 +186,7 @@ void compare_scene(const ResultReader& base, const ResultReader& candidate, cons
     if (candidate.has(path))
       compare_scene(base, candidate, path, differences);
     else
-      differences.push_back({"", path, std::nullopt, "present", "absent", 0});
+      differences.push_back({"", path, std::nullopt, "present", ABSENT, 0});
   }
 }
 
@@ -143,14 +194,28 @@ void compare_scene(const ResultReader& base, const ResultReader& candidate, cons
 
 std::vector<Difference> experiment_differences(const ResultReader& base, const ResultReader& candidate) {
   std::vector<Difference> differences;
-  compare_json(deciding_part(base), deciding_part(candidate), "", differences);
+  nlohmann::json a = deciding_part(base), b = deciding_part(candidate);
+  // All frames of the path, where one side alone names a number.
+  if (a.contains("frames") != b.contains("frames"))
+    for (const auto& [part, file] : {std::pair{&a, &base}, {&b, &candidate}})
+      if (!part->contains("frames") && file->has("/path/time"))
+        (*part)["frames"] = file->reals("/path/time").size();
+  compare_json(a, b, "", differences);
   compare_inputs(base, candidate, differences);
   return differences;
 }
 
+std::vector<Difference> kept_differences(const ResultReader& base, const ResultReader& candidate) {
+  std::vector<Difference> differences;
+  const nlohmann::json a = experiment_of(base), b = experiment_of(candidate);
+  for (const char* key : {"probes", "record"})
+    if (a.contains(key) && b.contains(key))
+      compare_json(a[key], b[key], fmt::format("/{}", key), differences);
+  return differences;
+}
+
 bool is_of_frames(const Difference& difference) {
-  constexpr std::string_view KEYS[] = {"/moving", "/fixed",         "/movers", "/objects",
-                                       "/path",   "/frame_rate_hz", "/frames"};
+  constexpr std::string_view KEYS[] = {"/moving", "/fixed", "/movers", "/path", "/frame_rate_hz", "/frames"};
   const std::string in_experiment = EXPERIMENT + std::string(":");
   if (!difference.dataset.starts_with(in_experiment)) return true;  // a file's SHA-256
   const std::string pointer = difference.dataset.substr(in_experiment.size());
@@ -160,8 +225,11 @@ bool is_of_frames(const Difference& difference) {
 std::vector<Difference> scene_differences(const ResultReader& base, const ResultReader& candidate) {
   std::vector<Difference> differences;
   compare_scene(base, candidate, "/scene", differences);
-  for (Difference& difference : group_differences(base, candidate, "/path"))
-    differences.push_back(std::move(difference));
+  std::vector<std::string> groups{"/path"};
+  for (const std::string& mesh : base.groups("/scene"))
+    if (mesh != "objects" && candidate.has("/scene/" + mesh)) groups.push_back("/scene/" + mesh);
+  for (const std::string& group : groups)
+    std::ranges::move(group_differences(base, candidate, group), std::back_inserter(differences));
   return differences;
 }
 

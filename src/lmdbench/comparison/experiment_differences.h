@@ -11,16 +11,21 @@
 
 namespace lmdbench {
 
-/// Differences of two results' experiments: the resolved experiment as JSON (methods by label; no
-/// names, titles, places of files, probes, recording, repetitions, which change no result) and
-/// SHA-256 of every input. A key of one side alone is no difference: versions have other options.
+/// Differences of two results' experiments: the resolved experiment as JSON (methods by label,
+/// scenes in one form; no names, titles, places of files, probes, recording, repetitions, which
+/// change no result) and SHA-256 of every input. A key of one side alone is a difference only if it
+/// has no default: versions have other options.
 std::vector<Difference> experiment_differences(const ResultReader& base, const ResultReader& candidate);
+
+/// What one of the two was asked to probe or to record otherwise: names are JSON pointers.
+std::vector<Difference> kept_differences(const ResultReader& base, const ResultReader& candidate);
 
 /// Whether a difference of experiments concerns their frames (meshes, path, rate, number), not the
 /// work in them: force, methods, searches, device.
 bool is_of_frames(const Difference& difference);
 
-/// Differences made before any method ran: meshes, force constants of /scene, poses of /path.
+/// Differences made before any method ran: meshes, instances and force constants of /scene, poses
+/// of /path.
 std::vector<Difference> scene_differences(const ResultReader& base, const ResultReader& candidate);
 
 /// Facts of /provenance/machine, name and value, sorted by name.

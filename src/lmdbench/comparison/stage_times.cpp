@@ -30,12 +30,12 @@ double sum_of_minima(const std::vector<double>& times, std::size_t first_row, st
   return sum;
 }
 
-std::size_t warm_up(const ResultReader& file) {
+}  // namespace
+
+std::size_t warm_up_repetitions(const ResultReader& file) {
   return static_cast<std::size_t>(
       std::max<std::int64_t>(file.integer_attribute("/methods", "warm_up_repetitions").value_or(0), 0));
 }
-
-}  // namespace
 
 const std::vector<TimedStage>& stages() {
   static const std::vector<TimedStage> ALL{{"search", "global_search_time", "global_counters"},
@@ -53,10 +53,10 @@ std::size_t measured_repetitions(const ResultReader& file) {
       throw InputError(file.file().string(), dataset, "is missing: the run kept no times",
                        "run the experiment with /record/timings at true");
     const std::vector<std::size_t> shape = file.shape(dataset);
-    if (shape.size() != 2 || shape[0] <= warm_up(file))
+    if (shape.size() != 2 || shape[0] <= warm_up_repetitions(file))
       throw InputError(file.file().string(), dataset, "holds no measured repetition",
                        "run the experiment with /driver/repetitions of 2 or more");
-    least = std::min(least, shape[0] - warm_up(file));
+    least = std::min(least, shape[0] - warm_up_repetitions(file));
   }
   return least;
 }
@@ -68,12 +68,12 @@ StageTimes stage_times(const ResultReader& file, std::size_t repetitions) {
       const std::string dataset = "/methods/" + label + "/" + std::string(stage.dataset);
       if (!file.has(dataset)) continue;
       const std::vector<std::size_t> shape = file.shape(dataset);
-      if (shape.size() != 2 || shape[0] < warm_up(file) + repetitions)
+      if (shape.size() != 2 || shape[0] < warm_up_repetitions(file) + repetitions)
         throw InputError(file.file().string(), dataset,
                          "has another shape than (repetitions, frames or searches)",
                          "make the file again with lmdbench run");
-      const double sum =
-          sum_of_minima(file.reals(dataset), warm_up(file), warm_up(file) + repetitions, shape[1]);
+      const double sum = sum_of_minima(file.reals(dataset), warm_up_repetitions(file),
+                                       warm_up_repetitions(file) + repetitions, shape[1]);
       if (sum > 0.0) times[label][std::string(stage.name)] = sum;
     }
   }

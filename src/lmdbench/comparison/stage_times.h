@@ -29,6 +29,9 @@ const std::vector<TimedStage>& stages();
 /// By method label and stage name; stages that a method does not have are missing.
 using StageTimes = std::map<std::string, std::map<std::string, double>>;
 
+/// Repetitions at the start of a file that warm up; 0 where there is one alone.
+std::size_t warm_up_repetitions(const ResultReader& file);
+
 /// Measured repetitions of a file, without those that warm up.
 std::size_t measured_repetitions(const ResultReader& file);
 
