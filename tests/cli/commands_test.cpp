@@ -6,12 +6,14 @@
 
 #include "program.h"
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/source_directory.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -102,6 +104,40 @@ TEST(PathCommand, RepeatsThePathThatInitMakesFarFromTheOrigin) {
   EXPECT_EQ(lmdbench("init a.off b.off --out new", scratch.path()).code, 0);
   const Outcome outcome = lmdbench("path generate new/a-b.path.json --out p.tum", scratch.path());
   EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST(PathCommand, CountsFramesAboutTheWantedGapFromThePathsBegin) {
+  const ScratchDirectory scratch;
+  scratch.write("ball.off", to_off_text(make_sphere(1.0, 2)));
+  const double diagonal = bounding_box_diagonal(make_sphere(1.0, 2));
+  const std::string spec = R"({"moving": {"mesh": "./ball.off"}, "fixed": {"mesh": "./ball.off"},
+    "frame_rate_hz": 4, "seed": 1, "start_direction": [1, 0, 0], "slide_rate_deg_per_s": 1,
+    "turn_rate_deg_per_s": 1, "gap_floor": 0.0001, "gaps": [{"time_s": 0, "gap": 0.1}, {"time_s": 1, "gap": )";
+  scratch.write("s.json", spec + "0.1}]}");
+  const auto at_wanted_gap = [&](double gap, int code) {
+    const double x = 2.0 + gap * diagonal;
+    scratch.write("p.tum", fmt::format("10 {0} 0 0 0 0 0 1\n11 {0} 0 0 0 0 0 1\n", x));
+    const Outcome outcome = lmdbench("path info p.tum --spec s.json --json", scratch.path());
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    return nlohmann::json::parse(outcome.out)["frames_at_wanted_gap"].get<int>();
+  };
+  EXPECT_EQ(at_wanted_gap(0.1, 0), 5);
+  EXPECT_EQ(at_wanted_gap(0.05, 0), 0) << "far too near";
+  EXPECT_EQ(at_wanted_gap(-0.05, 1), 0) << "they intersect";
+  EXPECT_EQ(at_wanted_gap(0.2, 0), 0);
+  scratch.write("s.json", spec + "0.5}]}");
+  EXPECT_EQ(at_wanted_gap(0.1, 0), 1) << "the first frame alone, at time 10";
+}
+
+TEST(PathCommand, APathOfTwoFramesHasNoAcceleration) {
+  const ScratchDirectory scratch;
+  scratch.write("p.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  for (const char* rate : {"0.5", "1"}) {
+    const Outcome outcome = lmdbench(std::string("path info p.tum --rate ") + rate, scratch.path());
+    EXPECT_THAT(outcome.out, AllOf(Not(HasSubstr("nan")), HasSubstr("shorter than two frames")))
+        << outcome.out;
+  }
+  EXPECT_THAT(lmdbench("path info p.tum --rate 2", scratch.path()).out, HasSubstr("at most 1 m/s"));
 }
 
 class StopSignals : public ::testing::TestWithParam<std::pair<const char*, int>> {};
