@@ -254,6 +254,8 @@ TEST(InitCommand, UnlikeUnitsNeedAWord) {
   EXPECT_THAT(refused.err, HasSubstr("--unit mm,m"));
   const Outcome taken = lmdbench("init box.off metres.off --out new --unit mm,m", scratch.path());
   EXPECT_EQ(taken.code, 0) << taken.err;
+  const Outcome unlike = lmdbench("init box.off metres.off --out other --unit m,m", scratch.path());
+  EXPECT_THAT(unlike.err, AllOf(HasSubstr("1000 times as much"), Not(HasSubstr("says no unit"))));
 }
 
 TEST(InitCommand, ContactsAreReadyForStability) {
@@ -305,6 +307,36 @@ TEST(MeshCommand, SaysWhereAMeshCrossesItselfAndIsInsideOut) {
   const Outcome turned = lmdbench("mesh info turned.off", scratch.path());
   EXPECT_THAT(turned.out, HasSubstr("crosses self  none"));
   EXPECT_THAT(turned.out, HasSubstr("--orient outward"));
+}
+
+/// A prism whose walls are cut in two and whose ends have the corners of both.
+TEST(MeshCommand, JudgesAMeshAsARunTakesIt) {
+  const ScratchDirectory scratch;
+  scratch.write(
+      "p.obj",
+      "v 0 0 0\nv 5 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 0 0 5\nv 5 0 5\nv 10 0 5\nv 10 10 5\n"
+      "v 0 10 5\nf 5 4 3 2 1\nf 6 7 8 9 10\nf 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 10 9\nf 5 1 6 10\n");
+  const Outcome info = lmdbench("mesh info p.obj", scratch.path());
+  EXPECT_THAT(info.out, AllOf(HasSubstr("crosses self  none"), Not(HasSubstr("finding")),
+                              HasSubstr("repairs       1 flat triangle, ")));
+  const Outcome made = lmdbench("init p.obj p.obj --out new", scratch.path());
+  EXPECT_THAT(made.err, Not(HasSubstr("touch or cross"))) << made.err;
+}
+
+TEST(InitCommand, LooksAtItsFolderFirstAndQuotesIt) {
+  const ScratchDirectory scratch;
+  scratch.write("box.off", to_off_text(make_box({0.04, 0.06, 0.02})));
+  const Outcome refused = lmdbench("init box.off box.off --out box.off/new", scratch.path());
+  EXPECT_EQ(refused.code, ENVIRONMENT);
+  EXPECT_THAT(refused.err, HasSubstr("box.off is a file (remedy: name another folder with --out)"));
+  std::filesystem::create_directory(scratch / "my parts");
+  const std::filesystem::path link = scratch / "my parts" / "box-box.tum";
+  std::filesystem::create_symlink("nowhere.tum", link);
+  EXPECT_EQ(lmdbench("init box.off box.off --out 'my parts'", scratch.path()).code, USAGE);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  std::filesystem::remove(link);
+  EXPECT_THAT(lmdbench("init box.off box.off --out 'my parts'", scratch.path()).out,
+              HasSubstr("lmdbench run 'my parts/box-box.json'\n"));
 }
 
 /// Two unit cubes; the moving one stands above the fixed one by the pose's z - 1.
