@@ -372,6 +372,14 @@ TEST_F(QueryCommand, TakesUnitsAndTurnsWhatIsInsideOut) {
   EXPECT_EQ(found(inside_out, "--unit mm --orient outward")["lmds"], found(mesh, "--unit mm")["lmds"]);
   EXPECT_EQ(lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 1 --unit mile").code,
             USAGE);
+  const Outcome large =
+      lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 1 --unit 1e200");
+  EXPECT_EQ(large.code, INPUT_DATA);
+  EXPECT_THAT(large.err, HasSubstr("cube.off: --unit 1e200: "));
+  EXPECT_THAT(lmdbench("query --moving '" + mesh + "' --fixed '" + mesh +
+                       "' --cutoff 1 --option kernel=scalar --option kernel=scalar")
+                  .err,
+              HasSubstr("kernel is given twice"));
 }
 
 TEST_F(QueryCommand, PrintsALineAPoseInWorldCoordinates) {
