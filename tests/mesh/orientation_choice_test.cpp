@@ -7,6 +7,7 @@
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/mesh/winding_number.h>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -89,7 +90,11 @@ TEST(OrientOutward, PiecesThatTouchAreEnclosedOnlyIfTheyAreInside) {
        "in the nook of an L"},
       {merged(box, inside_out(translated(small, {0.25, 0, 0}))), "a cavity up to a face"},
       {merged(box, inside_out(translated(small, {0.25, 0.25, 0.25}))), "a cavity up to a corner"}};
-  for (const auto& [sound, what] : scenes) {
+  const Vec3 axis = Vec3(1, 2, 3).normalized();
+  for (int turns = 0; turns < 50; ++turns) {
+    const auto& [upright, what] = scenes[turns % std::ssize(scenes)];
+    TriangleMesh sound = upright;
+    for (Vec3& vertex : sound.vertices) vertex = Eigen::AngleAxisd(0.3 * turns, axis) * vertex;
     for (std::size_t first = 0; first < sound.triangles.size(); ++first) {
       TriangleMesh mesh = sound;
       std::ranges::rotate(mesh.triangles, mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first));
