@@ -62,6 +62,8 @@ def pieces_of_sweep(program, sweep, out, overrides=(), points_per_job=1):
     for chunk in chunks(points, points_per_job):
         numbers = numbers_text([point["number"] for point in chunk])
         pieces.append(Piece(_name(*(point["key"] for point in chunk)), f"points {numbers}", [*common, "--points", numbers]))
+    for name in ("findings.log", *(piece.name + ".done" for piece in pieces)):  # points that failed are tried again
+        Path(out + ".points", name).unlink(missing_ok=True)
     return pieces, [*common, "--collect"]
 
 

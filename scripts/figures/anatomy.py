@@ -9,7 +9,6 @@ import json
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError
 from mesh_drawing import rotation
 from program import PROGRAM, answer
 
@@ -56,10 +55,7 @@ def ask(program, experiment, time=None, levels=()):
     command = [program, "-q", "anatomy", experiment, *(["--time", repr(time)] if time is not None else [])]
     for level in levels:
         command += ["--level", str(level)]
-    try:
-        return Anatomy(json.loads(answer(command)))
-    except OSError as error:
-        raise ResultError(f"{error} (remedy: build it, or name it with --program)")
+    return Anatomy(json.loads(answer(command)))
 
 
 def main_of(name, doc, draw, levels=()):

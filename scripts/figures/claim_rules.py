@@ -12,7 +12,7 @@ import claim_runs
 import region_cost
 import region_force
 import region_sets
-from lmdbench_results import ResultError
+from lmdbench_results import ResultError, in_short
 from region_rules import FAILS, HOLDS, NOT_MEASURED, OPEN, Found
 
 
@@ -28,7 +28,9 @@ class Rule:
     sections: tuple  # of the page of a run which its own numbers rest on, by their ids
     paper: str = ""  # its words
     note: str = ""  # on what stands in the table of settings; formatted with the evidence
-    look: object = None  # look(hard, soft): numbers in a sentence, {part of the claim: whether it holds}, and what to say where all hold
+    # look(hard, soft): numbers in a sentence, {part of the claim: whether it holds}, and what to
+    # say where all hold. None where two runs cannot tell.
+    look: object = None
 
     def judge(self, *evidence):
         """(lines, cells) of all settings."""
@@ -147,7 +149,7 @@ def read_verdicts(file=None):
     try:
         return {entry["claim"]: entry for entry in json.loads(Path(file or REFERENCE).read_text(encoding="utf-8"))}
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ResultError(f"{file or REFERENCE}: is no ledger of verdicts: {error!r} (remedy: scripts/claims.sh verdicts)")
+        raise ResultError(f"{file or REFERENCE}: is no ledger of verdicts: {type(error).__name__}: {in_short(error)} (remedy: scripts/claims.sh verdicts)")
 
 
 @dataclass
@@ -177,12 +179,10 @@ def rows(hard, soft, verdicts):
     claims = []
     missing = {"verdict": NOT_MEASURED, "reason": "no ledger of verdicts (remedy: scripts/claims.sh)"}
     for name, rule in CLAIMS.items():
-        if rule.look is None:
-            continue
-        text, parts, *caveat = rule.look(hard, soft)
+        text, parts, *caveat = rule.look(hard, soft) if rule.look else ("Other scenes than those of two runs decide.", {})
         setting, because = claim_runs.judge(parts) if parts else (NOT_MEASURED, "")
         if setting == HOLDS and caveat:
             because = caveat[0]
         entry = verdicts.get(name, missing)
-        claims.append(Claim(name, rule.paper, rule.rule, text, setting, because, entry["verdict"], entry["reason"]))
+        claims.append(Claim(name, rule.paper or f"{rule.short}.", rule.rule, text, setting, because, entry["verdict"], entry["reason"]))
     return claims

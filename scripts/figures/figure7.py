@@ -9,6 +9,7 @@ medians over the repetitions without the warm-up."""
 
 import argparse
 import math
+import textwrap
 from types import SimpleNamespace
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
@@ -24,7 +25,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 RECALL_BINS = 40  # the recall of one frame is mostly 0 or 1
-# Truth is a wide pale band; the line of a method that is right is inside it.
+# Truth is a wide pale band, inside of which the line of a method that is right is; pale dots where
+# probed frames do not follow each other.
 TRUTH_WIDTH = 2.6
 # A time axis ends above this quantile, so that single samples of a busy machine do not flatten the
 # rest. The figure tells how many are cut off, and the largest.
@@ -34,6 +36,7 @@ NOTABLE_EXCESS = 1.5  # a smaller excess widens the axis
 SHORTEST_UPDATE_US = 0.1  # lower end of its axis; below are updates of empty sets
 HAPTIC_BUDGET_US = 1000.0  # one frame at 1 kHz
 NOTE = {"fontsize": 6.2, "color": "#444444"}
+LETTER = 0.6  # width of one, as a share of the font's size
 MOST_COLUMNS = 4
 LONGEST_LABEL = 32  # letters; it stands twice in some rows
 LEGEND_LAYOUTS = ((7.0, 1), (5.5, 1), (5.5, 2), (4.5, 2))
@@ -46,7 +49,7 @@ class Column:
         self.result, self.time = result, result.time
         self.methods = methods
         # Under several profiles the column's title has the profile: names are equal in all columns.
-        self.names = {method.label: method.label.removesuffix(f"-{method.profile}") if method.profile else method.label for method in methods}
+        self.names = {method.label: method.series for method in methods}
         named = [SimpleNamespace(label=self.names[method.label], name=method.name, order=method.order) for method in methods]
         colours, rounds = style.colours_of(named), style.rounds_of(named)
         self.look = {}
@@ -107,13 +110,18 @@ def note_beyond(axes):
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}, **NOTE)
 
 
+def truth_look(method, frames):
+    """A line between frames that were not probed would show forces that there never were."""
+    shape = {"lw": TRUTH_WIDTH} if np.all(np.diff(frames) == 1) else {"ls": "none", "marker": "o", "ms": 3.6, "mew": 0}
+    return {"color": style.TRUTH_COLOURS[method.force_law], **shape}
+
+
 def plot_force(axes, column):
     for method in column.methods:
         axes.plot(column.time, method.force_magnitude(), **column.look[method.label])
     for _, method in true_forces(column.methods):
         frames, force = reference_force(method)
-        axes.plot(column.time[frames], force, lw=TRUTH_WIDTH, color=style.TRUTH_COLOURS[method.force_law], zorder=1,
-                  solid_capstyle="round", solid_joinstyle="round")
+        axes.plot(column.time[frames], force, **truth_look(method, frames), zorder=1, solid_capstyle="round", solid_joinstyle="round")
     limit = column.result.scene("device_maximum_force_n")
     highest = max(float(np.nanmax(line.get_ydata(), initial=0.0)) for line in axes.lines)
     if highest >= 0.99 * limit:
@@ -151,11 +159,16 @@ def drawn_values(axes):
     return values[np.isfinite(values)]
 
 
+def say_inside(axes, words):
+    """In the middle, on as many lines as keep it from the panels beside it."""
+    width = axes.get_position().width * axes.figure.get_figwidth() * 72 / (LETTER * NOTE["fontsize"])
+    axes.text(0.5, 0.5, textwrap.fill(words, int(width)), transform=axes.transAxes, ha="center", va="center", **NOTE)
+
+
 def plot_searches(axes, column):
     searching = [method for method in column.methods if method.tracks_locally]
     if not searching:
-        axes.text(0.5, 0.5, "no method searches at a rate of its own:\nthe local update is the whole search", transform=axes.transAxes, ha="center",
-                  va="center", **NOTE)
+        say_inside(axes, "no method searches at a rate of its own: the local update is the whole search")
         axes.set_yticks([])
         return
     for method in searching:
@@ -195,7 +208,7 @@ def plot_recall(axes, column):
     for method in column.methods:
         truth = truth_of(method)
         if truth is None:
-            axes.text(0.5, 0.5, no_truth(column.result), transform=axes.transAxes, ha="center", va="center")
+            say_inside(axes, no_truth(column.result))
             return
         bins = np.clip(np.digitize(column.time[truth.frames], edges) - 1, 0, RECALL_BINS - 1)
         for shares, options in ((truth.recall, {**column.look[method.label], "lw": 1.1}),
@@ -222,7 +235,7 @@ def keys_of_rows(columns):
             elif method.tracks_locally:
                 searches[name] = plain
         for _, method in true_forces(column.methods):
-            laws[method.force_law] = key(f"truth, {method.force_law} law", style.TRUTH_COLOURS[method.force_law], width=TRUTH_WIDTH)
+            laws[method.force_law] = Line2D([], [], **truth_look(method, reference_force(method)[0]), label=f"truth, {method.force_law} law")
     # A single method is named; the pale lines of several look alike.
     whose = f"{reducing[0]}, " if len(set(reducing)) == 1 else "any method, "
     before, alone = ([key(whose + words, style.SKY)] if reducing else [] for words in ("before reduction", "search alone"))
@@ -244,6 +257,10 @@ def draw(*results):
     columns = columns_of(results)
     if len(columns) > MOST_COLUMNS:
         raise ResultError(f"{results[0].file}: {len(columns)} columns are more than a page holds (remedy: at most {MOST_COLUMNS} results or profiles)")
+    return draw_columns(columns)
+
+
+def draw_columns(columns):
     style.use_style()
     heights = [height for _, _, height in ROWS]
     figure, axes = plt.subplots(

@@ -83,7 +83,7 @@ def events(before, after, true_before, true_after, step, cutoff, known):
 def sets_of(method, frames, scene):
     """[{key: Pair}] of a method, one a frame."""
     if not method.has("lmds"):
-        raise ResultError(f"/methods/{method.label}: holds no LMD lists (remedy: run with --set /record/lmds=true)")
+        raise ResultError(f"{method.result.file}: /methods/{method.label}: holds no LMD lists (remedy: run with --set /record/lmds=true)")
     lmds = {name: dataset[:] for name, dataset in method.result.h5[f"/methods/{method.label}/lmds"].items()}
     keys = zip(lmds["fixed_body"], lmds["feature_moving_kind"], lmds["feature_moving_index"],
                lmds["feature_fixed_kind"], lmds["feature_fixed_index"])
@@ -94,21 +94,24 @@ def sets_of(method, frames, scene):
 
 
 def refuse_others(run):
-    """How far a pair travels is known where one rigid mesh follows one path."""
+    """How far a pair travels is known where one rigid mesh follows one path, and its force under one profile."""
+    profiles = list(dict.fromkeys(method.profile for method in run.methods.values() if method.profile))
     for what, there in (("movers", run.has("/path/movers/position")),
                         ("a mesh that deforms", any("deformation" in mesh.attrs for mesh in run.h5["/scene"].values())),
+                        (f"several force profiles ({', '.join(profiles)})", profiles),
                         ("a closed loop", any(method.has("path/position") for method in run.methods.values()))):
         if there:
-            raise ResultError(f"{run.file}: has {what}, whose jumps are not attributed here (remedy: an open loop in which one rigid mesh moves)")
+            raise ResultError(f"{run.file}: has {what}, whose jumps are not attributed here (remedy: an open loop in which one rigid mesh moves, "
+                              "under one force profile)")
 
 
 def attribute(file):
     """({label: {kind: jumps [N]}}, F_max, seconds) of one result file; a jump is NaN where triangles intersect, which have no direction."""
     run = Result(file)
     refuse_others(run)
-    scene = tuple(run.scene(name) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
     if REFERENCE not in run.methods:
-        raise ResultError(f"{file}: /methods/{REFERENCE} is missing (remedy: add the method to the experiment)")
+        raise ResultError(f"{file}: /methods/{REFERENCE}: is missing beside {', '.join(run.methods)} (remedy: add the method to the experiment)")
+    scene = tuple(run.scene(name) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
     time = run.time
     orientation = run.read("/path/orientation")
     # Results before 1.0 do not tell the centre: the frame's origin then.

@@ -33,6 +33,14 @@ EXIT_ENVIRONMENT = 4
 class ResultError(Exception):
     """A result file is missing, broken or lacks what is asked for; the message names file, place and remedy."""
 
+    exit_code = EXIT_INPUT_DATA
+
+
+class UsageError(ResultError):
+    """What was asked for is wrong, or the experiment."""
+
+    exit_code = EXIT_USAGE
+
 
 class ForeignFileError(Exception):
     """An output would replace a file that is not lmdbench's."""
@@ -120,6 +128,7 @@ class Method:
             order, tracks, trackings = (attributes[name] for name in ("method_order", "tracks_locally", "trackings_after_search"))
         self.order, self.tracks_locally, self.reduces = int(order), bool(tracks), int(trackings) > 0
         self.profile = result.text_attribute(group, "profile") or ""
+        self.series = label.removesuffix(f"-{self.profile}") if self.profile else label  # the same under every profile
 
     def has(self, dataset):
         return self.result.has(f"/methods/{self.label}/{dataset}")
@@ -385,6 +394,13 @@ def true_forces(methods):
     return [(f"truth of {method.label}" if reference else f"truth, {law} law", method) for (reference, law), method in found.items()]
 
 
+LONGEST_REASON = 200  # letters; errors of decoding may hold the whole file
+
+
+def in_short(error):
+    return str(error)[:LONGEST_REASON]
+
+
 def run_script(main):
     """Calls main(argv) and turns what a user did wrong into one line and the exit code of the command line contract."""
     try:
@@ -396,11 +412,13 @@ def run_script(main):
         return EXIT_USAGE
     except ResultError as error:
         print(error, file=sys.stderr)
-        return EXIT_INPUT_DATA
+        return error.exit_code
     except DATA_ERRORS as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
-        print(f"{', '.join(OPENED or sys.argv[1:])}: not what a result holds: {error!r} in {os.path.basename(place.filename)}, line "
-              f"{place.lineno} (remedy: make the file again with lmdbench run)", file=sys.stderr)
+        files, holder, remedy = ((OPENED, "a result holds", "make the file again with lmdbench run") if OPENED else
+                                 (sys.argv[1:], "is read here", "name files of the kind that --help tells"))
+        print(f"{', '.join(files)}: not what {holder}: {type(error).__name__}: {in_short(error)} in {os.path.basename(place.filename)}, "
+              f"line {place.lineno} (remedy: {remedy})", file=sys.stderr)
         return EXIT_INPUT_DATA
     except OSError as error:  # a full disk, no write permission, a reader that has gone
         if isinstance(error, BrokenPipeError):

@@ -6,7 +6,7 @@ towards the reader."""
 import numpy as np
 
 import figure_style  # noqa: F401  (first: it chooses the backend)
-from lmdbench_results import ResultError
+from lmdbench_results import ResultError, in_short
 
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Circle, PathPatch
@@ -25,11 +25,13 @@ def read_off(file):
     try:
         with open(file, encoding="ascii") as stream:
             words = [word for line in stream for word in line.split("#")[0].split()]
+        vertices, triangles = int(words[1]), int(words[2])
+        points = np.array(words[4:4 + 3 * vertices], dtype=float).reshape(vertices, 3)
+        return points, np.array(words[4 + 3 * vertices:], dtype=int).reshape(triangles, 4)[:, 1:]
     except OSError as error:
         raise ResultError(f"{error} (remedy: lmdbench mesh build)")
-    vertices, triangles = int(words[1]), int(words[2])
-    points = np.array(words[4:4 + 3 * vertices], dtype=float).reshape(-1, 3)
-    return points, np.array(words[4 + 3 * vertices:4 + 3 * vertices + 4 * triangles], dtype=int).reshape(-1, 4)[:, 1:]
+    except (ValueError, IndexError) as error:
+        raise ResultError(f"{file}: is no OFF file of triangles: {in_short(error)} (remedy: lmdbench mesh build, or such a file)")
 
 
 def placed(points, diagonal):

@@ -68,12 +68,19 @@ def fixed_body(file, experiment):
     return fixed[0]
 
 
+def whole_number(word):
+    number = int(word)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{word} is below 1")
+    return number
+
+
 def main(argv):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("result")
     parser.add_argument("--meshes", default="meshes", help="folder of built meshes")
     parser.add_argument("--out", default="results/figures")
-    parser.add_argument("--curves", type=int, default=6, help="frames whose curves are drawn")
+    parser.add_argument("--curves", type=whole_number, default=6, metavar="N", help="frames whose curves are drawn")
     arguments = parser.parse_args(argv)
     with open_h5(arguments.result) as file:
         # Each method has its own in a closed loop and under several profiles.

@@ -115,10 +115,15 @@ def maximum_forces(result):
     return ", ".join(dict.fromkeys(f"{method.constant('maximum_force_n'):g}" for method in result.methods.values()))
 
 
+def whose_contact(result):
+    """In a closed loop every device goes its own way, and meets the mesh less often."""
+    return " on the path that the hand means" if result.experiment.get("loop", {}).get("kind") == "closed" else ""
+
+
 def describe(result):
     truth = next((truth_of(method) for method in result.methods.values()), None)
     lines = [f"{result.name}: {result.experiment.get('title') or 'no title'}"]
-    lines.append(f"{result.time.size} frames, {result.number('frames_in_contact'):.0f} in contact; "
+    lines.append(f"{result.time.size} frames, {result.number('frames_in_contact'):.0f} in contact{whose_contact(result)}; "
                  f"{f'{repetitions - result.warm_up_repetitions} timed repetitions' if (repetitions := result.repetitions()) else 'times were not kept'}; "
                  + (f"errors against exhaustive truth in {truth.frames.size} frames{true_jumps(result)}"
                     if truth else f"{no_truth(result).upper()}: the times stand without an error")

@@ -277,7 +277,9 @@ MEAN_EDGES = {"bunny-16k": 0.0128, "armadillo": 0.0068}  # of the diagonal: `lmd
 
 
 def cutoff_text(point):
-    force, moving = point.experiment["force"], (point.experiment.get("moving") or point.experiment["objects"][0])["mesh"]
+    experiment = point.experiment
+    force, moving = experiment["force"], (experiment.get("moving") or experiment["objects"][0])["mesh"]
+    force = force[0] if isinstance(force, list) else force
     share = force.get("cutoff_diagonal")
     if share is None:
         return f"Cutoff {1e3 * force['cutoff_m']:g} mm."
@@ -291,8 +293,8 @@ def markdown(sweep, picture):
                       for name in ("truth_checked_frames", "truth_wrong_frames"))
     text = [
         "# Error against run time", "",
-        f"{as_is(sweep.title)}. Made by `lmdbench work-precision experiments/sweeps/{sweep.name}.json` and "
-        f"`scripts/figures/sweep.py results/{sweep.name}.h5` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}; "
+        f"{as_is(sweep.title)}. Made by `{sweep.command}` and "
+        f"`scripts/figures/sweep.py {sweep.file}` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}; "
         "`certified` with vector instructions, `original` and `improved` scalar.", "",
         f"Truth in every frame is the set of `certified`, compared with `exhaustive` in {checked} frames of the problems "
         f"({wrong or 'none'} differ). Forces are compared under each method's own law. Points take turns in random order; a frame counts "

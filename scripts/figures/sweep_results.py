@@ -5,6 +5,7 @@
 import copy
 import json
 import math
+import shlex
 
 import h5py
 import numpy as np
@@ -101,10 +102,13 @@ class Sweep:
                 self.counters = {name: dataset[()] for name, dataset in h5.get("counters", {}).items()}
                 attributes, self.provenance = texts_of(h5["sweep"].attrs), texts_of(h5["provenance"].attrs)
                 self.definition = str(text(np.ravel(h5["provenance/experiment"][()])[0])) if "provenance/experiment" in h5 else ""
+                words = [str(text(word)) for word in h5["provenance/argv"][()]] if "provenance/argv" in h5 else []
                 self.machine = texts_of(h5["provenance/machine"].attrs) if "provenance/machine" in h5 else {}
         except OSError as error:
             raise ResultError(f"{self.file}: cannot be read: {error} {remedy}")
-        self.sweep_name, self.title = attributes["name"], attributes["title"]
+        self.command = shlex.join(["lmdbench", *(words[1:] or ["work-precision"])])
+        self.sweep_name = attributes["name"]
+        self.title = attributes["title"] or self.sweep_name
         self.name = self.sweep_name  # variants get a longer one (variants.py)
         self.clock_overhead_ns = 1e9 * float(attributes["clock_overhead_s"])
         self.points = [Point(self, index) for index in range(len(self.texts["scene"]))]

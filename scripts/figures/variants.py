@@ -5,19 +5,23 @@
 import json
 import os
 
-from lmdbench_results import Result, ResultError
+from lmdbench_results import Result, UsageError
 
 # Settings without effect on results: named only if nothing else differs.
 INCIDENTAL = ("/probes", "/record", "/plan", "/mesh_folder", "/driver/block_frames", "/driver/repetitions")
 NEVER = ("/$schema", "/name", "/title")
+PROFILES = "/force/profiles"
 MOST_NAMED = 3
 
 
 def settings(value, pointer=""):
-    """{JSON pointer: value} of what an experiment says, methods by their label."""
+    """{JSON pointer: value} of what an experiment says, methods by their label, several force profiles by their name."""
     if pointer == "/methods":
         by_label = {method.get("label", method.get("name", "")): method for method in value}
         return {pointer: ", ".join(sorted(by_label)), **settings(by_label, pointer + "/")}
+    if pointer == "/force" and isinstance(value, list):
+        by_name = {profile.get("name", ""): profile for profile in value}
+        return {PROFILES: ", ".join(by_name), **settings(by_name, pointer)}
     if isinstance(value, list) and any(isinstance(item, dict) for item in value):
         value = dict(enumerate(value))
     if not isinstance(value, dict):
@@ -36,9 +40,10 @@ def differences(variants):
     said = [settings(variant) for variant in variants]
     places = list(dict.fromkeys(place for one in said for place in one if not place.startswith(NEVER)))
     last = [place.rsplit("/", 1)[-1] for place in places]
-    # A method that some variants lack is named once.
-    partly = {place for place in places if place.startswith("/methods//") and not all(place in one for one in said)}
-    differ = [place for place in places if place not in partly and len({json.dumps(one.get(place)) for one in said}) > 1]
+    # A method or profile that some variants lack is named once: the others are compared.
+    lists = ("/methods//", "/force/") if len({one.get(PROFILES) for one in said}) > 1 else ("/methods//",)
+    differ = [place for place in places if len({json.dumps(one.get(place)) for one in said
+                                                if place in one or place == PROFILES or not place.startswith(lists)}) > 1]
     differ = [place for place in differ if not place.startswith(INCIDENTAL)] or differ
 
     def name(place):
@@ -66,7 +71,7 @@ def tell_apart(results):
 
 def refuse_twice(files):
     if len({os.path.realpath(file) for file in files}) < len(files):
-        raise ResultError(f"{', '.join(map(str, files))}: a file is there twice (remedy: name every result once)")
+        raise UsageError(f"{', '.join(map(str, files))}: a file is there twice (remedy: name every result once)")
 
 
 def open_results(files):

@@ -9,6 +9,7 @@ fails is shown as a failure, not left out."""
 
 import argparse
 import math
+from types import SimpleNamespace
 
 import interpreter  # noqa: F401  (chooses one that has what follows)
 
@@ -22,14 +23,14 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
-MARKERS = ("o", "s", "^", "D", "v", "P")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "p", "h", "d", "8", "*")
 HAPTIC_BUDGET_MS = 1.0  # one frame at 1 kHz
 # Width of the lanes for errors of exactly 0 and for failures, as a share of the logarithmic range.
 LANE_SHARE = 0.2
 MARGIN = 0.1  # decades between points and the ends of an axis
 SHORTEST_RANGE = 0.6  # decades
 NEAR = 0.35  # decades from an axis to the budget that it still reaches for
-LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5),)
+LEGEND_LAYOUTS = tuple((7.0, lines) for lines in range(1, 6)) + ((5.5, 5), (5.5, 8), (5.5, 12))
 
 
 class Point:
@@ -38,6 +39,7 @@ class Point:
     def __init__(self, result, method):
         self.method = method
         self.experiment = result.name
+        self.mark = result.name + (f", {method.profile}" if method.profile else "")
         self.median_ms = method.number("frame_time_median_s") * 1e3
         self.p99_ms = method.number("frame_time_p99_s") * 1e3
         if truth_of(method) is None:
@@ -116,7 +118,7 @@ def draw_panel(axes, points, quantity, lenient, most, label, markers, colours, l
     in_lane = [point for point in points if point.failure or getattr(point, quantity) == 0]
     for point in points:
         error = getattr(point, quantity)
-        colour = colours[point.method.label]
+        colour = colours[point.method.series]
         bad = bool(point.failure)
         if not bad and not np.isfinite(error):
             continue  # no set is promised that could miss an LMD
@@ -126,11 +128,11 @@ def draw_panel(axes, points, quantity, lenient, most, label, markers, colours, l
             open_error = getattr(point, lenient)
             open_place = open_error if open_error > 0 else zero * lane
             axes.plot([place, open_place], [point.median_ms] * 2, color=colour, lw=0.6, ls=":", zorder=2)
-            axes.plot(open_place, point.median_ms, marker=markers[point.experiment], ms=5.4, color="white", mec=colour,
+            axes.plot(open_place, point.median_ms, marker=markers[point.mark], ms=5.4, color="white", mec=colour,
                       mew=0.9, zorder=3)
-        axes.plot([place, place], [point.median_ms, point.p99_ms], color=colour, lw=0.9, ls=lines[point.method.label], zorder=2)
+        axes.plot([place, place], [point.median_ms, point.p99_ms], color=colour, lw=0.9, ls=lines[point.method.series], zorder=2)
         axes.plot(place, point.p99_ms, marker="_", ms=5, color=colour, zorder=2)
-        axes.plot(place, point.median_ms, marker="x" if bad else markers[point.experiment], ms=6, color=colour,
+        axes.plot(place, point.median_ms, marker="x" if bad else markers[point.mark], ms=6, color=colour,
                   mec=colour if bad else "white", mew=1.4 if bad else 0.6, zorder=3)
     axes.set_xlabel(label)
 
@@ -153,8 +155,8 @@ def draw(results, narrow=False):
     """@param narrow  for a page as wide as a telephone: the panels stand over each other"""
     style.use_style()
     points = [Point(result, method) for result in results for method in result.methods.values()]
-    names = list(dict.fromkeys(point.experiment for point in points))
-    methods = [point.method for point in points]
+    names = list(dict.fromkeys(point.mark for point in points))
+    methods = [SimpleNamespace(label=method.series, name=method.name, order=method.order) for method in (point.method for point in points)]
     colours, lines = style.colours_of(methods), {label: style.round_line(number) for label, number in style.rounds_of(methods).items()}
     markers = dict(zip(names, MARKERS * (len(names) // len(MARKERS) + 1)))
     width, height, rows = (0.5 * style.TWO_COLUMNS_IN, 6.2, len(PANELS)) if narrow else (style.TWO_COLUMNS_IN, 3.5, 1)
@@ -172,6 +174,8 @@ def draw(results, narrow=False):
             for label, colour in colours.items()]
     keys += [Line2D([], [], color="#444444", ls="none", marker=markers[name], ms=5.5, mew=0, label=style.shortened(name))
              for name in names if len(names) > 1]
+    if len(names) > len(MARKERS):
+        keys.append(Line2D([], [], ls="none", label=f"marks repeat: there are {len(MARKERS)}"))
     keys.append(Line2D([], [], color="white", ls="none", marker="o", ms=5, mec="#444444", mew=0.9,
                        label="open: neighbouring features count as found"))
     style.note_failures(figure, {f"{point.method.label} in {point.experiment}": point.failure for point in points if point.failure})

@@ -70,21 +70,18 @@ def sweep_entry(sweep, folder, taken):
 
 def over_time_entry(results, folder, by_paper):
     """The paper's Figure 7, hard beside soft, or the same of any results; as many columns as a page holds."""
-    columns, taken = 0, []
-    for number, result in enumerate(results):
-        wanted = len(figure7.columns_of([result]))
-        if wanted and columns + wanted <= figure7.MOST_COLUMNS:
-            columns += wanted
-            taken.append(number)
-    if not taken:
+    columns = figure7.columns_of(results)
+    if not columns:
         return None
-    names = [column.name() for column in figure7.columns_of([results[i] for i in taken])]
-    where = f"From left to right: {'; '.join(names)}. " if len(names) > 1 else ""
+    shown, left_out = ([column.name() for column in part] for part in (columns[:figure7.MOST_COLUMNS], columns[figure7.MOST_COLUMNS:]))
+    where = f"From left to right: {'; '.join(shown)}. " if len(shown) > 1 else ""
+    beside = (f" Not in the figure, which has room for {figure7.MOST_COLUMNS}: {'; '.join(left_out)} (the plots to zoom have them; so has a figure of "
+              "`scripts/figures/figure7.py` with fewer results)." if left_out else "")
     name, title, beyond = ("figure7", "The paper's Figure 7", " beyond the paper") if by_paper else ("over_time", "Over time", "")
-    made = entry(figure7.draw(*(results[i] for i in taken)), folder, name, title,
+    made = entry(figure7.draw_columns(columns[:figure7.MOST_COLUMNS]), folder, name, title,
                  f"{where}Force, LMD counts, search and update times, and{beyond} the true force and the share "
-                 f"of true LMDs that each method knows.{' The next section has these plots to zoom, with all methods.' if by_paper else ''}")
-    return {**made, "folded": "" if by_paper else "As a figure to print", "csv_results": [(i, results[i].name) for i in taken]}
+                 f"of true LMDs that each method knows.{beside}{' The next section has these plots to zoom, with all methods.' if by_paper else ''}")
+    return {**made, "folded": "" if by_paper else "As a figure to print", "csv_results": [(i, result.name) for i, result in enumerate(results)]}
 
 
 def clock_entry(result, folder, taken):
@@ -105,6 +102,7 @@ def work_precision_text(results):
     """What the figure shows; lanes and open marks only where they are drawn."""
     points = [work_precision.Point(result, method) for result in results for method in result.methods.values()]
     several = " in one experiment" if len({point.experiment for point in points}) > 1 else ""
+    several += " under one force profile" if any(point.method.profile for point in points) else ""
     lanes = ["The shaded lane on the left holds errors of exactly zero."] * any(
         0.0 in (point.force_error, point.missed, point.missed_adjacent) for point in points)
     lanes += ["The shaded lane on the right holds methods that fail."] * any(point.failure for point in points)

@@ -48,5 +48,12 @@ TEST(NumberLines, WhatIsNoFiniteNumberIsNamedWithItsLine) {
   }
 }
 
+TEST(NumberLines, AnEmptyCellIsNamedWithItsLine) {
+  for (const std::string line : {"0,0.1,,0.2", ",1", "1,2,", "1, \t,2", ",\r"})
+    EXPECT_THAT(testing::message_of<InputError>([&] { lines_of("1,2\n" + line + "\n"); }),
+                AllOf(HasSubstr("line 2"), HasSubstr("nothing before or behind a comma")))
+        << line;
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -14,6 +14,7 @@ namespace lmdbench::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -119,6 +120,19 @@ TEST_F(BadInput, StandardOutputIsNoPlaceForFiles) {
                                    HasSubstr("(remedy: name a file with --out")));
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "-")) << line;
   }
+}
+
+TEST_F(BadInput, AnEmptyNameIsNoDefault) {
+  ASSERT_EQ(lmdbench("run " + SHAPES + "--set /frames=30 --out r.h5", scratch_.path()).code, 0);
+  for (const std::string& line :
+       {"run " + SHAPES + "--set /frames=30", std::string("export r.h5"), std::string("report r.h5"),
+        std::string("init cube wedge --dir '" LMDBENCH_SOURCE_DIR "/meshes'"),
+        std::string("work-precision '" LMDBENCH_SOURCE_DIR "/experiments/sweeps/quick.json'")}) {
+    const Outcome outcome = lmdbench(line + " --out ''", scratch_.path());
+    EXPECT_EQ(outcome.code, USAGE) << line;
+    EXPECT_THAT(outcome.err, ContainsRegex("--out: names no f(ile|older)")) << line;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch_.path()), {}), 1) << "the result alone";
 }
 
 TEST_F(BadInput, RecordedPathsReplaceNothingButTheirOwn) {

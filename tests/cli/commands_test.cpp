@@ -219,6 +219,32 @@ TEST(RunCommand, BrokenLimitsEndWithOneAndKeepTheResult) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "r.h5"));
 }
 
+TEST(WorkPrecisionCommand, FailedPointsEndWithOne) {
+  const ScratchDirectory scratch;
+  scratch.write("sweep.json", R"({"name": "s", "experiments": [")" + SHAPES_FILE + R"("], "repetitions": 1,
+      "truth_check_frames": 1, "set": {"/frames": 30}, "series": [{"method": {"name": "certified"},
+      "axes": [{"/moving/mesh": ["blob", "./missing.off"]}]}]})");
+  for (const std::string more : {"", "--points 0-1"}) {
+    const Outcome outcome = lmdbench("-q work-precision sweep.json --out s.h5 " + more, scratch.path());
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("missing.off"), HasSubstr("no numbers")));
+  }
+  EXPECT_EQ(lmdbench("work-precision sweep.json --out s.h5 --points 0", scratch.path()).code, 0);
+  EXPECT_THAT(lmdbench("work-precision sweep.json --out s.h5 --points ''", scratch.path()).err,
+              HasSubstr("no list of points"));
+  const Outcome list =
+      lmdbench("--limit file-bytes=1000000 work-precision sweep.json --out s.h5 --list", scratch.path());
+  EXPECT_EQ(list.code, 0) << "the program is no input: " << list.err;
+}
+
+TEST(AnatomyCommand, TellsTimesOfAClockInFull) {
+  const ScratchDirectory scratch;
+  const std::string path =
+      scratch.write("p.tum", "1700000000.25 0 0 1 0 0 0 1\n1700000001.5 0 0 1 0 0 0 1\n");
+  EXPECT_THAT(lmdbench("anatomy " + SHAPES + "--time 0.4 --set /path/file=" + path).err,
+              HasSubstr("0.4 s is no time of the path (remedy: give one from 1700000000.25 to 1700000001."));
+}
+
 TEST(InitCommand, WritesAnExperimentThatRuns) {
   const ScratchDirectory scratch;
   const Outcome made =

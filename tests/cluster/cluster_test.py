@@ -54,7 +54,11 @@ class Pieces(Scratch):
         self.assertEqual(refused.returncode, 3)
         self.assertIn("3 of 3 points are not measured: 0-2", refused.stderr)
         self.assertEqual(subprocess.run(first[1].command, capture_output=True, check=False).returncode, 0)
+        of_failed = [pathlib.Path(out + ".points", name) for name in ("findings.log", first[0].name + ".done")]
+        for file in of_failed:
+            file.write_text("points 0-1: found something wrong", encoding="utf-8")
         second, _ = pieces.pieces_of_sweep(program, self.sweep(), out, points_per_job=2)
+        self.assertFalse([file for file in of_failed if file.exists()], "points that failed are tried again")
         self.assertEqual([(piece.what, piece.name) for piece in second], [("points 0-1", first[0].name)])
         self.assertEqual(subprocess.run(second[0].command, capture_output=True, check=False).returncode, 0)
         self.assertEqual(pieces.pieces_of_sweep(program, self.sweep(), out)[0], [])

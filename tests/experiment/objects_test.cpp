@@ -120,6 +120,10 @@ TEST(Objects, WhatDoesNotGoTogetherNamesThePlace) {
   EXPECT_THAT(message(R"("moving":{"mesh":"a"})"), HasSubstr("Missing required property 'fixed'"));
   EXPECT_THAT(message(objects({PEG, R"({"mesh":"b","motion":{"path":"q.tum","sway":{}}})", HOLE})),
               AllOf(HasSubstr("/objects/1/motion"), HasSubstr("\"path\" and \"sway\" exclude each other")));
+  EXPECT_THAT(message(objects({PEG, R"({"mesh":"b","motion":{"sway":{},"interpolation":"linear"}})", HOLE})),
+              HasSubstr("\"interpolation\" and \"sway\" exclude each other"));
+  EXPECT_THAT(message(objects({PEG, R"({"mesh":"b","motion":{"sway":{},"gap_intervals":5}})", HOLE})),
+              HasSubstr("\"gap_intervals\" and \"sway\" exclude each other"));
   EXPECT_THAT(message(objects({PEG, R"({"mesh":"b","motion":{}})", HOLE})), HasSubstr("/objects/1/motion"));
   EXPECT_THAT(message(objects({R"({"mesh":"b","motion":{"sway":{}}})", HOLE})),
               HasSubstr("/objects/0/motion/sway"));

@@ -132,6 +132,8 @@ class AgainstTheProgram(Files):
         np.testing.assert_array_equal(*sets)
         with self.assertRaises(lmdbench.UsageError):
             lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "improved", search_threads=np.float64(1.5))
+        with self.assertRaisesRegex(lmdbench.UsageError, "options: g5_tolerance_deg: nan .*remedy: a finite number"):
+            lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "original", merge_duplicates=True, g5_tolerance_deg=np.float64("nan"))
         with self.assertRaisesRegex(TypeError, "type set .*remedy"):
             lmdbench.query((CORNERS, SIDES), (CORNERS, SIDES), at(1.02), 0.05, "improved", search_threads={1})
 
@@ -400,6 +402,20 @@ class Results(Files):
         self.assertEqual(row["lmd_count"], h5["/methods/certified/movers/lmd_count"][7, 3])
         self.assertEqual(movers.attrs["units"]["torque_y"], "N m")
         self.assertIn("moving_body", result.lmds("certified"))
+
+    def test_movers_of_a_closed_loop_stand_where_the_method_left_them(self):
+        done = self.program("-q", "run", os.path.join(ROOT, "experiments", "movers.json"), "--out", "loop.h5", "--set", "/frames=5",
+                            "--set", '/loop={"kind": "closed"}', "--set", "/driver/repetitions=1", "--set", "/probes/fcl/stride_frames=0",
+                            "--set", "/probes/truth/stride_frames=0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = lmdbench.open_result(self.path("loop.h5"))
+        movers, h5 = result.movers("certified"), result.result.h5
+        own = movers[movers["mover"] == 0]
+        np.testing.assert_array_equal(own[["position_x", "position_y", "position_z"]], h5["/methods/certified/path/position"])
+        np.testing.assert_array_equal(own[[f"orientation_{axis}" for axis in "xyzw"]], h5["/methods/certified/path/orientation"])
+        self.assertFalse(np.array_equal(h5["/methods/certified/path/position"], h5["/path/movers/position"][:, 0]))
+        other = movers[movers["mover"] == 3]
+        np.testing.assert_array_equal(other[["position_x", "position_y", "position_z"]], h5["/path/movers/position"][:, 3])
 
     def test_files_of_every_format_version(self):
         for version in (1, 2):

@@ -106,6 +106,15 @@ TEST(RealtimeDriver, AnUpdateIsRecordedOnce) {
   EXPECT_LE(updates, run.clocks.at(0).roles.at(2).turns);
 }
 
+TEST(RealtimeDriver, AFreeLoopIsCountedFromItsBegin) {
+  RealtimeSettings settings = quick();
+  settings.choice.plant.search_sleep_s = 0.005;
+  const RealtimeRun run = run_realtime({clock_method(true)}, straight_path(60), settings, {});
+  const RoleRecord& search = run.clocks[0].roles[1];
+  EXPECT_GT(search.turns, 0);
+  EXPECT_GE(search.ran_ns, 5'000'000 * search.turns) << "it begins before the clock starts";
+}
+
 TEST(RealtimeDriver, PredictionLooksAheadByTheAge) {
   RealtimeSettings settings = quick();
   settings.predict = true;

@@ -104,6 +104,10 @@ class ExportTest(Scratch):
         self.assertGreater(sum(len(grid.ends) for _, grid in exact), 0)
         for _, grid in exact:
             np.testing.assert_allclose(np.linalg.norm(grid.points[1::2] - grid.points[0::2], axis=1), grid.cell_data["distance [m]"], atol=1e-12)
+        self.call("export", result, "--out", out, "--frames", "2")
+        for name in ("polylines", "moving"):
+            self.assertEqual(len(collection(os.path.join(out, f"{name}.pvd"))), 2)
+            self.assertEqual(len(os.listdir(os.path.join(out, name))), 2, "none is left of the earlier export")
 
     def test_closed_loop_has_a_mesh_a_device(self):
         result, out, told = self.run_and_export("closed", "/loop={\"kind\": \"closed\"}")

@@ -232,8 +232,10 @@ TEST(ClosedLoop, SummaryTellsThePathsContactAndTheDevices) {
   EXPECT_EQ(contacts("/scene/in_contact"), 600.0);
   EXPECT_LT(contacts("/methods/certified/loop/in_contact"), 300.0);
   EXPECT_GT(contacts("/methods/certified/loop/in_contact"), 0.0);
-  const std::string text = summary_text(summarise(released, run_experiment(released)));
+  const RunSummary summary = summarise(released, run_experiment(released));
+  const std::string text = summary_text(summary);
   EXPECT_NE(text.find("600 in contact"), std::string::npos) << text;
+  EXPECT_NE(summary_table(summary).find("600 in contact on the path that the hand means"), std::string::npos);
   EXPECT_NE(text.find("its device was in contact in"), std::string::npos) << text;
 }
 

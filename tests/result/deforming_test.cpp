@@ -227,6 +227,41 @@ TEST(Export, SeriesOfOneNameAreKeptApart) {
     EXPECT_THAT(written, ::testing::Contains(scratch / "vtk" / name));
 }
 
+TEST(Export, ReplacesAnEarlierOneAsAWhole) {
+  const ScratchDirectory scratch;
+  run_to(small_run({"/frames=20", "/record/lmds=true"}), scratch / "many.h5");
+  run_to(small_run({"/frames=20", "/record/lmds=false", R"(/methods=[{"name":"certified"}])"}),
+         scratch / "few.h5");
+  const auto files = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / "vtk"))
+      names.insert(entry.path().lexically_relative(scratch / "vtk").string());
+    return names;
+  };
+  export_frames(ResultReader(scratch / "few.h5"), scratch / "vtk", 4);
+  const std::set<std::string> alone = files();
+  export_frames(ResultReader(scratch / "many.h5"), scratch / "vtk", 20);
+  EXPECT_GT(files().size(), alone.size() + 20);
+  const std::set<std::string> mine{"forces-mine.pvd", "lmds-improved/notes.txt", "moving.vtu"};
+  for (const std::string& name : mine)
+    scratch.write("vtk/" + name, name.ends_with("vtu") ? "<?xml version=\"1.0\"?>\n<VTKFile " : "mine");
+  export_frames(ResultReader(scratch / "few.h5"), scratch / "vtk", 4);
+  std::set<std::string> expected = alone;
+  expected.insert(mine.begin(), mine.end());
+  expected.insert("lmds-improved");
+  EXPECT_EQ(files(), expected);
+}
+
+TEST(Export, WithoutValuesOfFramesNothingIsWritten) {
+  const ScratchDirectory scratch;
+  run_to(small_run({"/frames=20", "/record/frames=false", R"(/methods=[{"name":"certified"}])"}),
+         scratch / "r.h5");
+  EXPECT_THAT(
+      message_of<InputError>([&] { export_frames(ResultReader(scratch / "r.h5"), scratch / "vtk", 4); }),
+      AllOf(HasSubstr("/methods/certified/force"), HasSubstr("--set /record/frames=true")));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "vtk"));
+}
+
 TEST(Export, CurvesUnderSeveralProfilesAreThoseOfTheirPoses) {
   const ScratchDirectory scratch;
   run_to(small_run({"/frames=40", "/record/polylines/stride_frames=10", R"(/methods=[{"name":"certified"}])",
@@ -263,6 +298,11 @@ TEST(Deforming, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"interval_s":1})"),
               HasSubstr("\"generator\" and \"interval_s\" exclude each other"));
   EXPECT_THAT(refusal(R"({"amplitude":1,"folder":"a"})"), HasSubstr("exclude each other"));
+  EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"end":"repeat"})"),
+              HasSubstr("\"end\" and \"generator\" exclude each other"));
+  for (const std::string key : {R"("seed":2)", R"("period_s":2)", R"("share":0.5)", R"("direction":[1,0,0])"})
+    for (const std::string from : {R"("files":["a.off"])", R"("folder":"a")"})
+      EXPECT_THAT(refusal("{" + from + "," + key + "}"), HasSubstr("exclude each other")) << key;
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"direction":[0,0,0]})"),
               HasSubstr("/moving/deformation/direction"));
   EXPECT_THAT(refusal(R"({"generator":"bend","amplitude":1,"share":0})"),

@@ -24,6 +24,7 @@
 namespace lmdbench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::OpenResult;
@@ -43,7 +44,7 @@ std::string list_of_four(const ScratchDirectory& scratch) {
   return R"({"rule":"list","file":")" +
          scratch.write("list.txt",
                        "# x y z qx qy qz qw\n0 0 0 0 0 0 1\n0,0,0,0,0,0,1\n\n"
-                       "7.5 0.16 0 0 0 0 0 1\n0 0 0.4 0.6 0 0 0.8\n") +
+                       "0.16 0 0 0 0 0 1\n0 0 0.4 0.6 0 0 0.8\n") +
          "\"}";
 }
 
@@ -202,6 +203,10 @@ TEST(Instances, BadOnesAreToldWithTheirPlace) {
             SHAPES_FILE);
       }),
       HasSubstr("/path/file"));
+  for (const std::string key : {R"("turned":false)", R"("spacing_diagonals":2)", R"("seed":2)"})
+    EXPECT_THAT(message_of<Error>([&] { shapes_with(R"({"rule":"list","file":"l.txt",)" + key + "}"); }),
+                HasSubstr("exclude each other"))
+        << key;
   EXPECT_THAT(message_of<Error>([] { prepare(shapes_with(R"({"rule":"list","file":"no-such-list.txt"})")); }),
               HasSubstr("no-such-list.txt"));
 }
@@ -216,8 +221,10 @@ TEST(PoseList, NamesTheLineThatIsWrong) {
   EXPECT_THAT(of("0 0 inf 0 0 0 1\n"), HasSubstr("no finite number"));
   EXPECT_THAT(of("x,y,z,qx,qy,qz,qw\n"), HasSubstr("line 1"));
   EXPECT_THAT(of("# nothing\n"), HasSubstr("has no pose"));
+  EXPECT_THAT(of("0 0 0 0 0 0 1\n5 0 0 0 0 0 0 1\n"),
+              AllOf(HasSubstr("line 2"), HasSubstr("8 numbers, 7 in")));
   const std::vector<Pose> poses =
-      parse_pose_list("1,2,3,0,0,0.6,0.8\r\n5 1 2 3 0 0 0 1 # with a time\n", "p");
+      parse_pose_list("5, 1,2,3,0,0,0.6,0.8\r\n6 1 2 3 0 0 0 1 # with a time\n", "p");
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_EQ(poses[0].translation, Vec3(1, 2, 3));
   EXPECT_EQ(poses[0].rotation.z(), 0.6);

@@ -340,6 +340,19 @@ TEST(Movers, ExportAndTheViewHaveThemAll) {
     EXPECT_EQ(static_cast<std::int64_t>(nlohmann::json::parse(line)["lmds"].size()), count[frame]) << frame;
 }
 
+TEST(Movers, AnExportOfARunOnTheClockHasTheForceThatWasRendered) {
+  const ScratchDirectory scratch;
+  run_movers(movers_scene({BALL}, {"/driver/kind=realtime", "/driver/realtime/floor_s=0.01",
+                                   "/driver/realtime/lock_memory=false", "/frame_rate_hz=100"}),
+             scratch / "result.h5");
+  const ResultReader result(scratch / "result.h5");
+  ASSERT_FALSE(result.has("/methods/certified/movers/force"));
+  EXPECT_THAT(export_frames(result, scratch / "vtk", 5),
+              ::testing::Contains(scratch / "vtk/lmds-certified.pvd"));
+  EXPECT_THAT(testing::read_text(scratch / "vtk/forces-movers/000000.vtu"),
+              AllOf(HasSubstr("NumberOfPoints=\"1\""), HasSubstr("force of certified [N]")));
+}
+
 TEST(Movers, WhatDoesNotGoTogetherNamesThePlace) {
   EXPECT_THAT(message_of<UsageError>([&] { prepare(movers_scene({BALL})); }), HasSubstr("/movers/0"));
   EXPECT_THAT(message_of<UsageError>([&] {

@@ -158,6 +158,17 @@ TEST(Resume, WithoutAPartTheRunBegins) {
   EXPECT_EQ(run(open_loop(), scratch / "r.h5", Leftover::RESUME).resumed_frames, 0);
 }
 
+TEST(Resume, AForeignFileOfThePartsNameIsRefused) {
+  const ScratchDirectory scratch;
+  // As good as any HDF5 file: a result of ours that a user gave this name.
+  run(open_loop({"/driver/repetitions=1"}), scratch / "other.h5");
+  std::filesystem::rename(scratch / "other.h5", scratch / "r.h5.part");
+  for (const Leftover leftover : {Leftover::REFUSE, Leftover::RESUME})
+    EXPECT_THAT(message_of<Error>([&] { run(open_loop(), scratch / "r.h5", leftover); }),
+                AllOf(HasSubstr("r.h5.part"), HasSubstr("no part of a run")));
+  EXPECT_EQ(OpenResult(scratch / "r.h5.part").doubles("/methods/improved/force").size(), 3 * FRAMES);
+}
+
 TEST(Resume, ARunThatMeasuredNothingLeavesNothing) {
   const ScratchDirectory scratch;
   Experiment experiment = open_loop();

@@ -123,6 +123,18 @@ TEST_F(LoadSweep, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(refusal("{" + method + R"(, "set": {"/force": [
       {"name": "a", "cutoff_m": 0.01, "maximum_force_n": 1}, {"name": "b", "cutoff_m": 0.02, "maximum_force_n": 1}]}})"),
               HasSubstr("a force profile a point"));
+  EXPECT_THAT(refusal("{" + method + R"(, "axes": [{"/frames": [10, 20]}, {"/frames": [30, 40]}]})"),
+              ::testing::AllOf(HasSubstr("/series/0/axes/1"), HasSubstr("/frames is in two axes")));
+  EXPECT_THAT(refusal("{" + method + R"(, "axes": [{"/frames": [10, 20, 10]}]})"),
+              HasSubstr("points 0 and 2 are the same: improved, frames=10"));
+  EXPECT_THAT(refusal("{" + method + R"(, "axes": [{"/record/lmds": [false, true]}]})"),
+              HasSubstr("points 0 and 1 are the same"));
+  EXPECT_THAT(refusal("{" + method + R"(, "axes": [{"/driver/repetitions": [1, 2]}]})"),
+              ::testing::AllOf(HasSubstr("/driver/repetitions"), HasSubstr("repeats its points itself")));
+  EXPECT_THAT(refusal("{" + method + R"(, "set": {"/driver/kind": "realtime"}})"),
+              ::testing::AllOf(HasSubstr("/driver/kind"), HasSubstr("on the clock")));
+  EXPECT_THAT(refusal("{" + method + R"(, "set": {"/methods/-": {"name": "certified"}}})"),
+              ::testing::AllOf(HasSubstr("/methods"), HasSubstr("another method than the series' own")));
   EXPECT_THAT(refusal(R"({"method": {"name": "improvd", "force_law": "linear"}})"), HasSubstr("improved"));
   EXPECT_THAT(message_of<UsageError>([&] { load_sweep(scratch_ / "none.json"); }), HasSubstr("sweep file"));
 }

@@ -117,6 +117,30 @@ TEST_F(RunSweep, KeepsAFailedPointAsAFailureAndGoesOn) {
   EXPECT_FALSE(file.has("/samples/3"));
 }
 
+TEST_F(RunSweep, RepetitionsThatDifferAreAFailureUntilTheyAgree) {
+  const Sweep sweep = loaded();
+  const auto stop_behind_the_first = [](const std::string& phase, std::int64_t done, std::int64_t) {
+    return phase != "points" || done < 3;
+  };
+  EXPECT_THROW(run_sweep_to_file(sweep, scratch_ / "out.h5", {}, stop_behind_the_first), Interrupted);
+  std::string journal = testing::read_text(scratch_ / "out.h5.points.jsonl");
+  const std::string hash = "\"result_hash\":\"";
+  for (auto at = journal.find(hash); at != std::string::npos; at = journal.find(hash, at + 1))
+    journal.insert(at + hash.size(), "0");
+  scratch_.write("out.h5.points.jsonl", journal);
+  const SweepResult differ = run(sweep);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_THAT(differ.points.at(i).failure, HasSubstr("two repetitions differ"));
+    EXPECT_TRUE(differ.points[i].numbers.empty());
+    EXPECT_FALSE(on_front(sweep, differ, i));
+  }
+  EXPECT_FALSE(OpenResult(scratch_ / "out.h5").has("/samples"));
+  const SweepResult again = run(sweep);
+  EXPECT_EQ(again.resumed_runs, 0) << "nobody knows which repetition was right";
+  for (const PointResult& point : again.points) EXPECT_EQ(point.failure, "");
+  EXPECT_EQ(run(sweep).resumed_runs, 6);
+}
+
 TEST_F(RunSweep, APointWithoutAFrameThatCountsIsAFailure) {
   for (const PointResult& point : run(loaded("", 400, R"(, "from_frame": 399)")).points)
     EXPECT_THAT(point.failure,
@@ -135,6 +159,26 @@ TEST_F(RunSweep, ReplacesNothingButItsOwn) {
   scratch_.write("out.h5.points.jsonl", "somebody's notes\n");
   EXPECT_THROW(run(sweep), UsageError);
   EXPECT_EQ(testing::read_text(scratch_ / "out.h5.points.jsonl"), "somebody's notes\n");
+}
+
+TEST_F(RunSweep, PointsAreKnownWhereverTheirFilesAre) {
+  namespace fs = std::filesystem;
+  const fs::path source = LMDBENCH_SOURCE_DIR;
+  fs::create_directories(scratch_ / "a/experiments");
+  fs::copy_file(source / "experiments/shapes.json", scratch_ / "a/experiments/shapes.json");
+  fs::copy(source / "paths", scratch_ / "a/paths");
+  fs::create_directory_symlink(source / "meshes", scratch_ / "a/meshes");
+  const auto keys = [&](const std::string& folder) {
+    const std::string text = R"({"name": "s", "experiments": [")" + folder + R"(/experiments/shapes.json"],
+        "series": [{"method": {"name": "certified", "force_law": "linear"}}]})";
+    InputHashes hashes;
+    return point_keys(load_sweep(scratch_.write("sweep.json", text)), hashes);
+  };
+  const std::vector<std::string> known = keys("a");
+  fs::rename(scratch_ / "a", scratch_ / "b");
+  EXPECT_EQ(keys("b"), known);
+  scratch_.write("b/paths/shapes.tum", testing::read_text(scratch_ / "b/paths/shapes.tum") + "# changed\n");
+  EXPECT_NE(keys("b"), known);
 }
 
 TEST(PointNumbers, HaveNamesOfTheirOwn) {

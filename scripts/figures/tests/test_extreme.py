@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the page of extreme scenes says where something was not measured."""
 
+import gc
+
 import h5py
 import numpy as np
 
@@ -36,8 +38,9 @@ class Extreme(Scratch):
             h5["methods/improved/truth/force_error"][3] = np.nan
             h5["reference/contact_without_direction"][3] = 1
         self.assertIn("| improved | 1 of 1 |", self.printed(extreme.main, file))
+        gc.collect()  # a result and its methods hold each other, and with them the file
         with h5py.File(file, "a") as h5:
-            h5["methods/improved/truth/force_error"][4] = np.nan
+            h5["methods/improved/truth/force_error"][2] = np.nan
         self.assertIn("1 values missing", self.printed(extreme.main, file))
 
     def test_the_missing_probe_is_named(self):

@@ -9,7 +9,7 @@ import numpy as np
 
 from cases import Scratch
 import figure1
-from lmdbench_results import ResultError
+from lmdbench_results import ResultError, UsageError
 
 CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
 FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
@@ -61,6 +61,29 @@ class Figure1(Scratch):
         poses = np.arange(4000.0)[:, None]
         self.assertEqual(figure1.chosen_poses(poses, None)[[0, -1], 0].tolist(), [0.0, 3999.0])
 
+    def test_no_time_of_the_path_is_refused(self):
+        for time in ("99", "-1", "nan"):
+            with self.assertRaisesRegex(UsageError, "--time: .* s is no time of the path .remedy: give one from 0 to 2"):
+                figure1.main([*self.experiment([LMD]), f"--time={time}"])
+
+    def test_a_mesh_file_is_read_from_beside_the_experiment(self):
+        figure1.write_off(self.write("experiments/own.off", ""), CUBE, FACES)
+        self.assertEqual(figure1.main(self.experiment([LMD], moving={"mesh": "./own.off"}, force={"cutoff_m": 0.2})), 0)
+        with self.assertRaisesRegex(UsageError, "own.stl: not drawn here.*remedy"):
+            figure1.main(self.experiment([LMD], moving={"mesh": "./own.stl"}))
+
+    def test_what_an_experiment_leaves_out_is_named(self):
+        for changes, words in (({"path": {}}, "e.json: /path/file: needed here"), ({"force": {"maximum_force_n": 1}}, "e.json: /force: .*cutoff_m")):
+            with self.assertRaisesRegex(UsageError, words):
+                figure1.main(self.experiment([LMD], **changes))
+
+    def test_intersecting_triangles_alone_are_enlarged(self):
+        meshes = [(CUBE, FACES), (CUBE + [1.0, 0.0, 0.0], FACES)]
+        figure = figure1.draw(meshes, [{"point_moving": [1.0, 0.5, 0.5], "point_fixed": [1.0, 0.5, 0.5]}], "")
+        whole, enlarged = (np.ptp(axes.get_xlim()) for axes in figure.axes)
+        figure1.plt.close(figure)
+        self.assertGreater(enlarged / whole, 0.01)
+
     def test_no_lmd_is_said_and_not_drawn(self):
         with self.assertRaisesRegex(ResultError, "no LMD within the cutoff at 2 s"):
             figure1.main(self.experiment([]))
@@ -71,6 +94,11 @@ class Figure1(Scratch):
         points, faces = figure1.read_off(file)
         np.testing.assert_array_equal(points, CUBE / 3.0)
         np.testing.assert_array_equal(faces, FACES)
+
+    def test_what_is_no_off_file_of_triangles_is_named(self):
+        for name, text in (("quads.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"), ("cut.off", "OFF\n3 1 0\n0 0\n"), ("empty.off", "")):
+            with self.assertRaisesRegex(ResultError, f"{name}: is no OFF file of triangles.*remedy"):
+                figure1.read_off(self.write(name, text))
 
     def test_view_and_rotation_are_rotations(self):
         half = np.sqrt(0.5)

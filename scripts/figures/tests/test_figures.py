@@ -11,7 +11,7 @@ import sys
 import h5py
 import numpy as np
 
-from cases import FIGURES, Scratch, SharedScratch, call, text_of
+from cases import FIGURES, ROOT, Scratch, SharedScratch, call, text_of
 import check_format
 import claim_rules
 import claim_runs
@@ -105,6 +105,24 @@ class ReadingTest(ScriptsTest):
         for script, *files in (("front_page.py", self.hard), ("polylines.py", self.path("cut.h5"))):
             said = self.refused(lmdbench_results.EXIT_INPUT_DATA, script, *files, "--out", self.path("out"))
             self.assertTrue(said.startswith(files[0]), said)
+
+    def test_what_was_asked_for_leaves_with_the_exit_code_of_usage_and_no_program_with_that_of_the_environment(self):
+        experiment = ROOT / "experiments" / "bunny-hard.json"
+        refusing = self.write("refusing", "#!/bin/sh\necho 'lmdbench: error: --level: no such level' >&2\nexit 2\n")
+        pathlib.Path(refusing).chmod(0o755)
+        there = ("--out", self.path("out"))
+        for code, words, script, *arguments in (
+                (2, "--level: no such level", "figure2.py", experiment, "--program", refusing),
+                (4, "gone: cannot be started.*remedy", "figure2.py", experiment, "--program", self.path("gone")),
+                (2, "nosuch.json: is no experiment: .*remedy", "figure1.py", self.path("nosuch.json")),
+                (2, "hard.h5: is no experiment: .*remedy", "figure1.py", self.hard),
+                (2, "--curves: -3 is below 1", "polylines.py", self.hard, "--curves", "-3")):
+            self.assertRegex(self.refused(code, script, *arguments, *there), words)
+
+    def test_a_file_of_another_kind_is_not_printed(self):
+        said = self.refused(lmdbench_results.EXIT_INPUT_DATA, "front_page.py", self.hard)
+        self.assertLess(len(said), 500)
+        self.assertRegex(said, "remedy: name files of the kind")
 
     def test_scripts_leave_with_the_exit_code_of_the_environment(self):
         occupied = self.write("occupied", "a file where a directory should be")
@@ -267,6 +285,15 @@ class FigureTest(ScriptsTest):
         with self.assertRaisesRegex(ResultError, "5 columns are more than a page holds"):
             figure7.draw(*[exact] * 5)
 
+    def test_figure7_draws_no_true_force_between_probed_frames(self):
+        for stride, line in ((20, "None"), (1, "-")):
+            result = Result(write_result(self.path(f"every{stride}.h5"), frames=100, truth_stride=stride))
+            force, truth = figure7.draw(result).axes[0], figure_style.TRUTH_COLOURS["exponential"]
+            drawn = [one for one in force.lines if one.get_color() == truth]
+            keys = [key for legend in force.figure.legends for key in legend.get_lines() if key.get_color() == truth]
+            self.assertEqual([one.get_linestyle() for one in (*drawn, *keys)], [line, line])
+            self.assertEqual(drawn[0].get_marker(), "o" if stride > 1 else "None")
+
     def test_no_true_force_where_triangles_intersect(self):
         def intersect(h5):
             h5["reference/minimum_distance"][...] = 1e-3
@@ -315,6 +342,21 @@ class FigureTest(ScriptsTest):
         force, missed = work_precision.draw([Result(self.edited("force.h5", unset))]).axes
         colour = figure_style.colours_of(Result(self.hard).methods.values())["original"]
         self.assertEqual([any(line.get_color() == colour for line in panel.lines) for panel in (force, missed)], [True, False])
+
+    def test_work_precision_tells_profiles_by_marks_and_methods_by_colours(self):
+        def profiles(h5):
+            for label in ("original", "improved"):
+                for number in range(7):
+                    h5.copy(f"methods/{label}", f"methods/{label}-p{number}")
+                    h5[f"methods/{label}-p{number}"].attrs["profile"] = f"p{number}"
+                del h5[f"methods/{label}"]
+
+        figure = work_precision.draw([Result(self.edited("seven.h5", profiles))])
+        looks = {(line.get_color(), line.get_marker()) for line in figure.axes[0].lines if line.get_marker() in work_precision.MARKERS}
+        self.assertEqual(len(looks), 14)
+        self.assertEqual({colour for colour, _ in looks}, {figure_style.VERMILLION, figure_style.BLUE})
+        keys = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+        self.assertEqual(keys[:3], ["original", "improved", "hard, p0"])
 
     def test_labels_of_an_axis_stay_apart_however_far_errors_reach(self):
         def shift(error):
@@ -371,6 +413,13 @@ class SummaryTest(ScriptsTest):
         self.assertIn(" 4.32e-05 ", text)
         self.assertIn("times were not kept;", text)
 
+    def test_a_closed_loop_says_whose_contact_it_counts(self):
+        whose = "in contact on the path that the hand means; "
+        self.assertNotIn(whose, self.printed(summary.main, self.hard))
+        closed = self.path("closed.h5")
+        write_result(closed, settings={"loop": {"kind": "closed"}})
+        self.assertIn(whose, self.printed(summary.main, closed))
+
     def test_missing_errors_are_shouted(self):
         self.assertIn("NO TRUTH PROBE", self.printed(summary.main, self.bare))
 
@@ -389,9 +438,9 @@ class ClaimsTest(ScriptsTest):
 
     def test_what_the_synthetic_run_shows(self):
         rows = self.verdicts(self.hard, self.soft)
-        self.assertEqual(list(rows), [f"K{i}" for i in range(1, 11)])
+        self.assertEqual(list(rows), [f"K{i}" for i in range(1, 13)])
         expected = {"K1": "undecided", "K2": "holds", "K3": "does not hold", "K4": "holds", "K5": "holds", "K6": "holds",
-                    "K7": "does not hold", "K8": "not measured", "K9": "holds", "K10": "does not hold"}
+                    "K7": "does not hold", "K8": "not measured", "K9": "holds", "K10": "does not hold", "K11": "not measured", "K12": "not measured"}
         self.assertEqual({name: claim.setting for name, claim in rows.items()}, expected)
         self.assertEqual(rows["K7"].because, "not: less so when soft")
         self.assertIn("undecided: the improved force switches", rows["K1"].because)  # a second is too short
@@ -490,7 +539,7 @@ class ClaimsTest(ScriptsTest):
         text = self.printed(claims.main, self.hard, self.soft, "--out", self.path("ledger"))
         ledger = read_verdicts()
         self.assertIn(f"K2: {ledger['K2']['verdict']}: {ledger['K2']['reason']}", text)
-        self.assertEqual(self.read("ledger", "claims.md").count("\n| K"), 10)
+        self.assertEqual(self.read("ledger", "claims.md").count("\n| K"), 12, "K11 and K12 with the ledger's verdict")
 
 
 class OneLedgerTest(Scratch):
@@ -511,3 +560,7 @@ class OneLedgerTest(Scratch):
     def test_a_ledger_that_is_none_is_refused(self):
         with self.assertRaisesRegex(ResultError, "no ledger of verdicts"):
             read_verdicts(self.write("claims.json", '[{"id": "K1"}]'))
+        with open(self.path("binary"), "wb") as stream:
+            stream.write(b"\x89" * 10_000)
+        with self.assertRaisesRegex(ResultError, "^.{1,500}$"):
+            read_verdicts(self.path("binary"))

@@ -79,13 +79,16 @@ class Results(cases.Scratch):
 
     def test_other_scenes_are_refused(self):
         changes = {"movers": lambda h5: h5.create_group("path/movers/position"), "deforms": lambda h5: h5["scene/moving"].attrs.create("deformation", "bend"),
-                   "closed loop": lambda h5: h5.create_group("methods/original/path/position")}
-        for words, change in changes.items():
-            file = write_result(self.path(f"{words}.h5"), frames=100)
+                   "closed loop": lambda h5: h5.create_group("methods/original/path/position"),
+                   "force profiles .stiff.": lambda h5: h5["methods/original"].attrs.create("profile", "stiff")}
+        for number, (words, change) in enumerate(changes.items()):
+            file = write_result(self.path(f"other{number}.h5"), frames=100)
             with h5py.File(file, "a") as h5:
                 change(h5)
-            with self.assertRaisesRegex(ResultError, f"{words}.h5: has .*{words}.*remedy"):
+            with self.assertRaisesRegex(ResultError, f"other{number}.h5: has .*{words}.*remedy"):
                 jumps.attribute(file)
+        with self.assertRaisesRegex(ResultError, "plain.h5: /methods/certified: is missing beside original, improved .*remedy"):
+            jumps.attribute(write_result(self.path("plain.h5"), frames=100))
 
 
 class Travel(unittest.TestCase):

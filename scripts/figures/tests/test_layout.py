@@ -82,6 +82,12 @@ class LayoutTest(SharedScratch):
                 self.check(figure7.draw(*chosen), "figure 7")
                 self.check(work_precision.draw(chosen), "error against run time")
 
+    def test_keys_of_many_results_stay_in_a_narrow_figure(self):
+        results = [self.result(f"{'long name ' * 5}{number}", 2, number) for number in range(9)]
+        figure = work_precision.draw(results, narrow=True)
+        (legend,) = figure.legends
+        self.assertLessEqual(figure_style.width_of(figure, legend)[1], 1.0)
+
     def test_counts_between_1_and_10_have_a_scale(self):
         self.assertEqual(figure7.count_ticks(1.0), [0.0, 1.0])
         self.assertEqual(figure7.count_ticks(8.0), [0.0, 1.0, 8.0])
@@ -100,10 +106,11 @@ class LayoutTest(SharedScratch):
         self.assertEqual((len(long), long[:4], long[-5:]), (figure_style.LONGEST_NAME, "left", "right"))
 
     def test_dollars_in_names_begin_no_formula(self):
+        other = self.result("$", 4, 2)
         for name in ("cu$^$.off", "a$x^{ $"):
             result = self.result(name)
             self.check(figure7.draw(result), "figure 7")
-            self.check(work_precision.draw([result, self.result("$", 4, 2)]), "error against run time")
+            self.check(work_precision.draw([result, other]), "error against run time")
             figure_style.note_failures(figure := figure_style.plt.figure(), {name: "is missing"})
             figure.canvas.draw()
 
@@ -130,6 +137,16 @@ class LayoutTest(SharedScratch):
         for left, axes in ((figure.axes[place], figure.axes[place + 1]) for place in range(19) if place % 4 < 3):
             for box in labels(axes):
                 self.assertGreater(box.x0, left.get_window_extent(renderer).x1)
+
+    def test_what_an_empty_panel_says_stays_in_it(self):
+        file = write_result(self.path("empty.h5"), frames=100, methods=("certified",), truth_stride=0, settings={"probes": {"truth": {"stride_frames": 200}}})
+        figure = figure7.draw(*[Result(file)] * 4)
+        renderer = figure.canvas.get_renderer()
+        for row in (2, 4):
+            for axes in figure.axes[4 * row:4 * row + 4]:
+                (text,) = axes.texts
+                self.assertGreater(text.get_window_extent(renderer).x0, axes.get_window_extent(renderer).x0, text)
+                self.assertLess(text.get_window_extent(renderer).x1, axes.get_window_extent(renderer).x1, text)
 
     def test_a_share_does_not_exceed_all(self):
         file = write_result(self.path("half.h5"), frames=600, repetitions=3)

@@ -121,6 +121,17 @@ class SweepFile(SweepScratch):
         self.assertIn("improved, a search every 100 frames: 40 %", budget)  # 10 and 20 ms/s
         self.assertIn("certified: 0 %", budget)
 
+    def test_tables_name_the_files_that_were_given_and_take_a_list_of_one_profile(self):
+        self.sweep(ROWS)
+        with h5py.File(self.file, "a") as h5:
+            h5["provenance/argv"] = ["/opt/bin/lmdbench", "work-precision", "my sweep.json", "--out", "test.h5"]
+            h5["sweep"].attrs["title"] = ""
+            experiment = json.loads(h5["points/experiment"][0])
+            h5["points/experiment"][0] = json.dumps({**experiment, "force": [{"name": "hard", "cutoff_m": 0.002}]})
+        text = sweep.markdown(sweep_results.Sweep(self.file), "")
+        self.assertIn(f"\ntest. Made by `lmdbench work-precision 'my sweep.json' --out test.h5` and `scripts/figures/sweep.py {self.file}` at", text)
+        self.assertIn("Cutoff 2 mm.", text)
+
     def test_what_changes_the_truth_makes_panels_and_fronts_of_its_own(self):
         def at(cutoff, entries):
             return [{**entry, "problem": f"hard, force/cutoff_m {cutoff}"} for entry in entries]

@@ -6,7 +6,7 @@ import tempfile
 
 from cases import Scratch
 import figure7
-from lmdbench_results import ResultError
+from lmdbench_results import UsageError
 from synthetic import write_result
 from variants import open_results
 
@@ -37,6 +37,15 @@ class Names(Scratch):
         self.assertEqual(self.names({"methods": [method("improved", plain_cache=True)]}, {"methods": [method("improved", plain_cache=True), method("nearest")]}),
                          ["hard: methods improved", "hard: methods improved, nearest"])
 
+    def test_tell_a_list_of_profiles_by_their_names(self):
+        one, other = {"cutoff_m": 0.001, "sharpness": 4}, {"cutoff_m": 0.002, "sharpness": 4}
+        both = [{"name": "hard", **one}, {"name": "soft", **other}]
+        self.assertEqual(self.names({"force": one}, {"force": both}), ["hard", "hard: profiles hard, soft"])
+        self.assertEqual(self.names({"force": both[:1]}, {"force": both}), ["hard: profiles hard", "hard: profiles hard, soft"])
+        self.assertEqual(self.names({"force": one}, {"force": both}, {"force": other}),
+                         ["hard: force cutoff m 0.001", "hard: profiles hard, soft", "hard: force cutoff m 0.002"])
+        self.assertEqual(self.names({"force": both}, {"force": [both[0], {**both[1], "sharpness": 2}]}), ["hard: soft sharpness 4", "hard: soft sharpness 2"])
+
     def test_are_of_what_decides_results(self):
         self.assertEqual(self.names({"record": {"lmds": True}, "device": "a"}, {"record": {"lmds": False}, "device": "b"}), ["hard: device a", "hard: device b"])
         self.assertEqual(self.names({"record": {"lmds": True}}, {"record": {"lmds": False}}), ["hard: lmds on", "hard: lmds off"])
@@ -51,8 +60,9 @@ class Names(Scratch):
 
     def test_a_file_given_twice_is_refused(self):
         file = write_result(self.path("a.h5"), frames=100)
-        with self.assertRaisesRegex(ResultError, "there twice.*remedy"):
+        with self.assertRaisesRegex(UsageError, "there twice.*remedy"):
             open_results([file, file])
+        self.assertEqual(UsageError.exit_code, 2)
 
 
 class Axes(Scratch):

@@ -8,6 +8,7 @@ import json
 import os
 import re
 import sys
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -16,6 +17,7 @@ from PIL import Image
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "figures", "tests"))
 
 from cases import Scratch  # noqa: E402  (the figures' tests must be found first)
+import page_figures  # noqa: E402
 import report  # noqa: E402
 import scene_data  # noqa: E402
 import studies  # noqa: E402
@@ -385,6 +387,25 @@ class Page(Scratch):
         self.assertIn("<h2>Over time, frame by frame</h2>", own)
         self.assertIn('<details id="over_time">', own)
 
+    def test_what_the_figure_over_time_has_no_room_for_is_named_and_has_its_numbers(self):
+        def five(h5):
+            for number in range(5):
+                h5.copy("methods/improved", f"methods/improved-p{number}")
+                h5[f"methods/improved-p{number}"].attrs["profile"] = f"p{number}"
+            for label in ("original", "improved"):
+                del h5[f"methods/{label}"]
+        wide, other = (write_result(self.path(f"{name}.h5"), name=name, frames=100) for name in ("wide", "other"))
+        with h5py.File(wide, "a") as h5:
+            five(h5)
+        results = [Result(wide), Result(other)]
+        self.enterContext(unittest.mock.patch.object(page_figures, "saved", lambda *_: ""))
+        for by_paper in (False, True):
+            entry = page_figures.over_time_entry(results, self.folder, by_paper)
+            self.assertIn("From left to right: wide, p0; wide, p1; wide, p2; wide, p3. ", entry["text"])
+            self.assertIn("Not in the figure, which has room for 4: wide, p4; other (", entry["text"])
+            self.assertEqual(entry["csv_results"], [(0, "wide"), (1, "other")])
+        self.assertNotIn("Not in the figure", page_figures.over_time_entry(results[1:], self.folder, False)["text"])
+
     def test_variants_of_an_experiment_are_told_apart_and_share_ranges(self):
         other = write_result(self.path("other.h5"), maximum_force=6.0, settings={"device": "ideal"})
         with h5py.File(self.file, "a") as h5:
@@ -404,7 +425,8 @@ class Page(Scratch):
     def test_claims_link_to_sections_that_are_there(self):
         text = self.made("--paper")
         claims = text.split('<section id="claims">', 1)[1].split("</section>", 1)[0]
-        self.assertIn('<th scope="row">K10</th>', claims)
+        self.assertEqual(re.findall(r'<th scope="row">(K\d+)</th>', claims), [f"K{number}" for number in range(1, 13)])
+        self.assertRegex(claims.split('<th scope="row">K12</th>')[1], r"<td>not measured</td>\s*<td><b>holds where</b>")
         links = re.findall(r'href="#([^"]+)"', claims)
         self.assertIn("figure7", links)
         self.assertNotIn("study-jumps", links)

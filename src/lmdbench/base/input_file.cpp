@@ -138,6 +138,25 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text.substr(text.starts_with(MARK) ? MARK.size() : 0);
 }
 
+namespace {
+
+/// Such a cell would shift all behind it.
+bool has_empty_cell(const std::string& line) {
+  const auto is_blank = [](std::string_view cell) {
+    return cell.find_first_not_of(" \t\r\v\f") == std::string_view::npos;
+  };
+  std::string_view rest = line;
+  bool empty = false;
+  for (auto comma = rest.find(','); comma != std::string_view::npos; comma = rest.find(',')) {
+    empty = empty || is_blank(rest.substr(0, comma));
+    rest.remove_prefix(comma + 1);
+    empty = empty || is_blank(rest);
+  }
+  return empty;
+}
+
+}  // namespace
+
 void for_each_number_line(
     const std::string& text, const std::string& name, const std::string& remedy,
     const std::function<void(const std::string& place, std::span<const double> numbers)>& use) {
@@ -147,6 +166,7 @@ void for_each_number_line(
   for (std::string line; std::getline(lines, line);) {
     const std::string place = fmt::format("line {}", ++number);
     line.resize(std::min(line.find('#'), line.size()));
+    if (has_empty_cell(line)) throw InputError(name, place, "nothing before or behind a comma", remedy);
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream words(line);
     numbers.clear();

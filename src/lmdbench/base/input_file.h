@@ -49,7 +49,8 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// @param name for messages
 /// @param remedy what a line should hold, for messages
 /// @param use gets the place of a line, for messages ("line 7"), and its numbers
-/// @throws InputError naming the line of a word that is no finite number
+/// @throws InputError naming the line of a word that is no finite number, or of a comma with
+/// nothing before or behind it
 void for_each_number_line(
     const std::string& text, const std::string& name, const std::string& remedy,
     const std::function<void(const std::string& place, std::span<const double> numbers)>& use);

@@ -74,9 +74,11 @@ std::vector<std::string> excluded_keys(const Json& object, const std::string& ke
   if (!schema.contains("dependencies")) return excluded;
   for (const auto& [one, rule] : schema["dependencies"].items())
     for (const auto& [other, allowed] : rule["properties"].items()) {
-      if (allowed != false) continue;
-      if (one == key && object.contains(other)) excluded.push_back(other);
-      if (other == key && object.contains(one)) excluded.push_back(one);
+      if (!object.contains(one) || !object.contains(other)) continue;
+      // A resolved document has the default; only another value was asked for.
+      if (allowed != false && (!allowed.contains("const") || allowed["const"] == object[other])) continue;
+      if (one == key) excluded.push_back(other);
+      if (other == key) excluded.push_back(one);
     }
   return excluded;
 }

@@ -13,9 +13,10 @@
 namespace lmdbench {
 
 /// Refuses keys unknown to the schema wherever it says "additionalProperties": false, and keys that
-/// exclude each other by "dependencies": {KEY: {"properties": {OTHER: false}}}. Properties that
-/// exist only beside certain values are given by "allOf": [{"if": {"properties": {KEY: {"const":
-/// VALUE}}}, "then": SCHEMA}].
+/// exclude each other by "dependencies": {KEY: {"properties": {OTHER: false}}}; {"const": DEFAULT}
+/// in place of false for an OTHER that `fill_defaults` puts there. Properties that exist only
+/// beside certain values are given by "allOf": [{"if": {"properties": {KEY: {"const": VALUE}}},
+/// "then": SCHEMA}].
 /// @throws UsageError with the JSON pointer of the first such key, or of the object that has two
 void refuse_unknown_keys(const nlohmann::json& document, const nlohmann::json& schema,
                          const std::string& file);

@@ -20,6 +20,8 @@ void refuse_standard_output(const std::filesystem::path& file, const std::string
 }
 
 void refuse_no_folder(const std::filesystem::path& folder, const std::string& option) {
+  if (folder.empty())
+    throw UsageError("", option, "names no folder", "name one: it is made where there is none");
   std::error_code error;
   if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
     throw UsageError(folder.string(), option, "is no folder",

@@ -112,11 +112,14 @@ void PartFile::open_and_lock() {
     const bool same = ::lstat(part_name_.c_str(), &named) == 0 && ours.st_ino == named.st_ino &&
                       ours.st_dev == named.st_dev;
     if (same && S_ISREG(ours.st_mode) && ours.st_nlink == 1 && looks_like_a_part(part_name_)) return;
-    if (same)
-      throw EnvironmentError(part_name_.string(), "",
-                             "stands where the result is written at first, and is no file of lmdbench",
-                             "move it away or choose another place with --out");
+    if (same) refuse_foreign();
   }
+}
+
+void PartFile::refuse_foreign() const {
+  throw EnvironmentError(part_name_.string(), "",
+                         "stands where the result is written at first, and is no part of a run of lmdbench",
+                         "move it away or choose another place with --out");
 }
 
 bool PartFile::is_empty() const {

@@ -27,6 +27,8 @@ class PartFile {
   int descriptor() const { return descriptor_.get(); }
 
   bool is_empty() const;
+  /// @throws EnvironmentError: the part is of somebody else, whoever finds that out
+  [[noreturn]] void refuse_foreign() const;
 
   /// Gives the part this content in one step, flushed to the disk.
   /// @throws EnvironmentError, for example when the disk is full; the part is then as before

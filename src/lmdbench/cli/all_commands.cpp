@@ -16,7 +16,7 @@ void add_commands(CLI::App& app, const std::vector<std::string>& argv, int& exit
   add_report_command(app);
   add_export_command(app);
   add_anatomy_command(app);
-  add_work_precision_command(app, argv);
+  add_work_precision_command(app, argv, exit_status);
   add_mesh_command(app);
   add_path_command(app);
   add_plugin_command(app, exit_status);

@@ -26,8 +26,8 @@ std::size_t frame_at(const PreparedRun& prepared, std::optional<double> time) {
   const std::vector<double>& times = prepared.times;
   if (time) {
     if (!(*time >= times.front() && *time <= times.back()))
-      throw UsageError("", "--time", fmt::format("{:g} s is no time of the path", *time),
-                       fmt::format("give one from {:g} to {:g}", times.front(), times.back()));
+      throw UsageError("", "--time", fmt::format("{} s is no time of the path", *time),
+                       fmt::format("give one from {} to {}", times.front(), times.back()));
     const auto later = std::lower_bound(times.begin(), times.end(), *time);
     return static_cast<std::size_t>(later - times.begin());
   }

@@ -30,7 +30,8 @@ void add_doctor_command(CLI::App& app, int& exit_status);
 void add_stability_command(CLI::App& app, int& exit_status);
 void add_record_command(CLI::App& app);
 void add_report_command(CLI::App& app);
-void add_work_precision_command(CLI::App& app, const std::vector<std::string>& argv);
+/// @param exit_status CHECK_FAILED where points have no numbers
+void add_work_precision_command(CLI::App& app, const std::vector<std::string>& argv, int& exit_status);
 void add_anatomy_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 /// `lmdbench mesh info MESH... [--json]` and `lmdbench mesh build [NAME...] [--json]`.

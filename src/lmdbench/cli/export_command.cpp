@@ -28,7 +28,8 @@ void add_export_command(CLI::App& app) {
       ->required();
   command
       ->add_option("--frames", options->frames,
-                   "at most so many frames, evenly spread; about 0.8 MB each for 16,000 triangles")
+                   "at most so many frames, evenly spread, of all devices together; about 0.8 MB each for "
+                   "16,000 triangles")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command->callback([options] {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/output_guard.h>
 #include <lmdbench/base/plain_name.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
@@ -54,6 +55,7 @@ void add_init_command(CLI::App& app) {
       "--contact", options->contact,
       "begin at rest in contact, in a closed loop: for `lmdbench stability`; no path that grazes");
   command->callback([options] {
+    refuse_no_folder(options->out, "--out");
     InitChoices chosen;
     if (!options->unit.empty()) chosen.unit = options->unit;
     if (!options->orient.empty()) chosen.orientation = parse_orientation(options->orient, "", "--orient");

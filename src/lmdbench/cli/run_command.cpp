@@ -31,6 +31,7 @@ namespace {
 struct RunOptions {
   ExperimentArgument experiment;
   std::string out;
+  bool names_out = false;
   std::string driver;
   bool json = false;
   bool resume = false;
@@ -50,7 +51,7 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
   if (options.require_realtime)
     overrides.insert(overrides.end(), {"/driver/kind=realtime", "/driver/realtime/required=true"});
   const Experiment experiment = argument.load();
-  const std::filesystem::path out = options.out.empty() ? "results/" + experiment.name + ".h5" : options.out;
+  const std::filesystem::path out = options.names_out ? options.out : "results/" + experiment.name + ".h5";
 
   ProgressBar bar(talk_welcome());
   heed_stop_signals();
@@ -109,7 +110,8 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
   auto* command = app.add_subcommand("run", "Run an experiment and write its result file");
   const auto options = std::make_shared<RunOptions>();
   add_experiment_argument(*command, options->experiment)->required();
-  command->add_option("--out,-o", options->out, "result file; results/<name>.h5 without it");
+  CLI::Option* out =
+      command->add_option("--out,-o", options->out, "result file; results/<name>.h5 without it");
   command->add_option("--driver", options->driver, "same as --set /driver/kind=...");
   command->add_flag(
       "--require-realtime", options->require_realtime,
@@ -118,7 +120,10 @@ void add_run_command(CLI::App& app, const std::vector<std::string>& argv) {
   command->add_flag("--resume", options->resume,
                     "go on with what an interrupted run of the same experiment left, if anything");
   command->footer(fmt::format("{}\n{}", methods_help(), command->get_footer()));
-  command->callback([options, argv] { run_to_file(*options, argv); });
+  command->callback([options, argv, out] {
+    options->names_out = out->count() > 0;
+    run_to_file(*options, argv);
+  });
 }
 
 }  // namespace lmdbench

@@ -60,10 +60,15 @@ InstanceChoice read_instance_choice(const nlohmann::json& entry, const std::stri
 
 std::vector<Pose> parse_pose_list(const std::string& text, const std::string& name) {
   std::vector<Pose> poses;
+  std::size_t columns = 0;
   for_each_number_line(
       text, name, "write x y z qx qy qz qw, in metres and as a unit quaternion",
       [&](const std::string& place, std::span<const double> n) {
         const std::size_t count = n.size();
+        if (!poses.empty() && count != columns)
+          throw InputError(name, place, fmt::format("{} numbers, {} in the lines above", count, columns),
+                           "give every line as many: a time in all, or in none");
+        columns = count;
         if (count == 8) n = n.subspan(1);
         if (n.size() != 7)
           throw InputError(name, place, fmt::format("{} numbers", count),

@@ -157,6 +157,11 @@ std::string duration(double seconds) {
   return shown(seconds, unit->first, unit->second);
 }
 
+/// In a closed loop every device goes its own way, and meets the mesh less often.
+const char* whose_contact(const RunSummary& summary) {
+  return summary.closed_loop ? " on the path that the hand means" : "";
+}
+
 }  // namespace
 
 std::string NearestError::text() const {
@@ -182,10 +187,11 @@ std::string summary_table(const RunSummary& summary) {
     rows.push_back({m.label, std::isnan(m.recall) ? "-" : share_text(m.recall, 100.0) + " %",
                     shown(m.force_error_rms_n, 1, " N"), duration(m.frame_time_median_s),
                     duration(m.frame_time_p99_s), shown(m.frames_late, 1, "")});
-  std::string text = fmt::format(
-      "{}: {} frames, {} in contact; {}\n", summary.name, summary.frames, summary.frames_in_contact,
-      summary.frames_probed > 0 ? fmt::format("{} compared with truth", summary.frames_probed)
-                                : "errors are not measured, no frame is compared with truth");
+  std::string text =
+      fmt::format("{}: {} frames, {} in contact{}; {}\n", summary.name, summary.frames,
+                  summary.frames_in_contact, whose_contact(summary),
+                  summary.frames_probed > 0 ? fmt::format("{} compared with truth", summary.frames_probed)
+                                            : "errors are not measured, no frame is compared with truth");
   for (const auto& row : rows) {
     for (std::size_t column = 0; column < row.size(); ++column) {
       std::size_t width = 0;
@@ -202,7 +208,7 @@ std::string summary_text(const RunSummary& summary) {
   std::string text =
       fmt::format("{}: {} frames, {} in contact (within the cutoff of {:.4g} mm{}), {} against truth{}, {}\n",
                   summary.name, summary.frames, summary.frames_in_contact, summary.cutoff_m * 1e3,
-                  summary.closed_loop ? " on the path that the hand means" : "", summary.frames_probed,
+                  whose_contact(summary), summary.frames_probed,
                   summary.truth_of_every_frame.empty()
                       ? ""
                       : fmt::format(" by exhaustive search and in all of them by {}, which agrees there",

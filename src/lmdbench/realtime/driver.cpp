@@ -291,6 +291,8 @@ class MethodOnClock {
     const ThreadUse before = ThreadUse::now();
     std::optional<TickGrid> grid;
     if (rate_hz > 0.0) grid.emplace(start + offset, std::llround(1e9 / rate_hz));
+    // A free loop does not wait for the start.
+    const std::int64_t began = grid ? start : monotonic_ns();
     std::int64_t turns = 0;
     while (!stop_.load(std::memory_order_relaxed)) {
       Tick tick;
@@ -303,7 +305,7 @@ class MethodOnClock {
     }
     own.turns = turns;
     own.use = ThreadUse::now() - before;
-    own.ran_ns = monotonic_ns() - start;
+    own.ran_ns = monotonic_ns() - began;
   }
 
   void search_thread() {

@@ -149,7 +149,7 @@ std::optional<PartialResult> PartialResult::open(PartFile& part) {
   if (part.is_empty()) return std::nullopt;
   check_hdf5(part.part_name());
   auto implementation = std::make_unique<Implementation>(part);
-  if (!implementation->valid()) return std::nullopt;
+  if (!implementation->valid()) part.refuse_foreign();  // a result, or any other HDF5 file
   return PartialResult(std::move(implementation));
 }
 

@@ -52,7 +52,8 @@ class PartialResult {
   /// Starts a part with the image of a file whose datasets are reserved.
   /// @throws EnvironmentError when there is no room on the disk
   PartialResult(PartFile& part, const std::string& image);
-  /// Resumes a part; unset when it is no complete part of this format. @throws as `check_hdf5`
+  /// Resumes a part; unset when it is empty.
+  /// @throws as `check_hdf5`; EnvironmentError when it is of another format, and so not ours
   static std::optional<PartialResult> open(PartFile& part);
 
   PartialResult(PartialResult&&) noexcept;

@@ -60,6 +60,11 @@ void Journal::remember(Json line) {
     failures_[line["failed"].get<std::string>()] = line["why"].get<std::string>();
     return;
   }
+  if (has_text(line, "discarded")) {
+    const auto key = line["discarded"].get<std::string>();
+    std::erase_if(entries_, [&](const auto& entry) { return entry.first.first == key; });
+    return;
+  }
   if (!line.contains("repetition") || !line["repetition"].is_number_integer()) return;
   const auto repetition = line["repetition"].get<std::int64_t>();
   if (has_text(line, "began")) {
@@ -98,6 +103,10 @@ void Journal::begin(const std::string& key, std::int64_t repetition, Json where)
 
 void Journal::fail(const std::string& key, const std::string& why) {
   write({{"failed", key}, {"why", why}});
+}
+
+void Journal::discard(const std::string& key) {
+  write({{"discarded", key}});
 }
 
 void Journal::write(Json line) {

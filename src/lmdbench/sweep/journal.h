@@ -44,6 +44,9 @@ class Journal {
   /// Notes why a point has no numbers. This is no entry: the next run tries the point again.
   void fail(const std::string& key, const std::string& why);
 
+  /// Drops the entries of a point, whose repetitions contradict each other: it is measured anew.
+  void discard(const std::string& key);
+
   /// Reason of the last failure; null where none failed, or a later try succeeded.
   const std::string* failure(const std::string& key) const;
 

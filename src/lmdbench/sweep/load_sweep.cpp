@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace lmdbench {
@@ -37,8 +38,14 @@ void add_overrides(std::vector<Override>& overrides, const Json& values) {
 std::vector<Axes> combinations(const Json& axes, const JsonDocument& document, const std::string& place,
                                std::size_t most_points) {
   std::vector<Axes> result{{}};
+  std::set<std::string> places;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const Json& together = axes[i];
+    for (const auto& [name, values] : together.items())
+      if (!places.insert(in_experiment(name)).second)
+        document.fail(fmt::format("{}/{}", place, i),
+                      fmt::format("{} is in two axes: the last one would win", name),
+                      "leave one of them out");
     if (together.empty())
       document.fail(fmt::format("{}/{}", place, i), "an axis without a place",
                     "name a place of the experiment and its values");
@@ -83,6 +90,15 @@ SweepPoint make_point(const std::filesystem::path& file, const Json& sweep, cons
     throw UsageError(file.string(), "/force",
                      fmt::format("{} force profiles", point.experiment.profiles.size()),
                      "sweep with a force profile a point: set /force to one of them, or make it an axis");
+  if (point.experiment.methods.size() != 1 || point.experiment.methods.front().entry != point.series)
+    throw UsageError(file.string(), "/methods", "another method than the series' own",
+                     "give every method a series, and options as /method/OPTION");
+  if (point.experiment.driver.repetitions != 1)
+    throw UsageError(file.string(), "/driver/repetitions", "a sweep repeats its points itself",
+                     "say how often by \"repetitions\" of the sweep");
+  if (point.experiment.realtime)
+    throw UsageError(file.string(), "/driver/kind", "a run on the clock",
+                     "sweep with the driver \"lockstep\"");
   if (point.experiment.loop.closed)
     throw UsageError(file.string(), "/loop/kind", "a closed loop",
                      "sweep in an open loop: truth is at the poses of the path");
@@ -145,6 +161,13 @@ Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
       }
     }
   }
+  std::map<std::string, std::size_t> tasks;
+  for (std::size_t i = 0; i < sweep.points.size(); ++i)
+    if (const auto [other, is_new] = tasks.try_emplace(task_key(sweep.points[i]), i); !is_new)
+      document.fail("/series",
+                    fmt::format("points {} and {} are the same: {}, {}", other->second, i,
+                                sweep.points[i].series, sweep.points[i].axes_text()),
+                    "give a value once; name, title, /probes and /record of the experiment are no axes");
   if (json["from_frame"].is_null())
     for (const SweepPoint& point : sweep.points)
       sweep.from_frame = std::max(sweep.from_frame, point.experiment.driver.search_latency_frames);

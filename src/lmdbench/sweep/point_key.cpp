@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -14,18 +16,38 @@
 namespace lmdbench {
 namespace {
 
-std::filesystem::path this_program() {
-  return std::filesystem::canonical("/proc/self/exe");
+/// All of an experiment but method, driver and probes; names of files are relative to its folder.
+nlohmann::json scene_of(const Experiment& experiment) {
+  nlohmann::json json = nlohmann::json::parse(experiment.resolved_json);
+  for (const char* other :
+       {"$schema", "name", "title", "methods", "driver", "probes", "record", "acceptance"})
+    json.erase(other);
+  return json;
+}
+
+/// All that a point measures. What its files hold and where they are is not in it.
+nlohmann::json task_of(const SweepPoint& point) {
+  return {{"experiment", scene_of(point.experiment)},
+          {"method", nlohmann::json::parse(point.experiment.methods.front().options_json)},
+          {"driver", nlohmann::json::parse(point.experiment.resolved_json)["driver"]},
+          {"truth", scene_of(point.truth)}};
+}
+
+std::string folder_of(const Experiment& experiment) {
+  return std::filesystem::weakly_canonical(experiment.file).parent_path().string();
 }
 
 }  // namespace
 
 std::string scene_key(const Experiment& experiment) {
-  nlohmann::json json = nlohmann::json::parse(experiment.resolved_json);
-  for (const char* other :
-       {"$schema", "name", "title", "methods", "driver", "probes", "record", "acceptance"})
-    json.erase(other);
-  json["folder"] = experiment.file.parent_path().string();
+  nlohmann::json json = scene_of(experiment);
+  json["folder"] = folder_of(experiment);
+  return json.dump();
+}
+
+std::string task_key(const SweepPoint& point) {
+  nlohmann::json json = task_of(point);
+  json["folder"] = folder_of(point.experiment);
   return json.dump();
 }
 
@@ -43,6 +65,14 @@ std::string InputHashes::of(const std::filesystem::path& file) {
   return entry->second.sha256;
 }
 
+const std::string& InputHashes::program() {
+  if (program_.empty()) {
+    std::ifstream program("/proc/self/exe", std::ios::binary);
+    program_ = sha256_of_text(std::string(std::istreambuf_iterator<char>(program), {}));
+  }
+  return program_;
+}
+
 void InputHashes::check(const PreparedRun& run) {
   for (const MeshNote& mesh : run.meshes)
     if (mesh.file && of(*mesh.file) != mesh.sha256) throw InputChanged(*mesh.file);
@@ -53,16 +83,13 @@ void InputHashes::check(const PreparedRun& run) {
 std::vector<InputFile> InputHashes::files() const {
   std::vector<InputFile> result;
   for (const auto& [name, file] : files_)
-    if (!file.sha256.empty() && name != this_program().string()) result.push_back(file);
+    if (!file.sha256.empty()) result.push_back(file);
   return result;
 }
 
 std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes) {
-  nlohmann::json json{{"program", hashes.of(this_program())},
-                      {"experiment", scene_key(point.experiment)},
-                      {"method", nlohmann::json::parse(point.experiment.methods.front().options_json)},
-                      {"driver", nlohmann::json::parse(point.experiment.resolved_json)["driver"]},
-                      {"truth", scene_key(point.truth)},
+  nlohmann::json json{{"program", hashes.program()},
+                      {"task", task_of(point)},
                       {"truth_check_frames", sweep.truth_check_frames},
                       {"from_frame", sweep.from_frame},
                       {"inputs", nlohmann::json::array()}};

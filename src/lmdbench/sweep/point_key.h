@@ -18,6 +18,9 @@ namespace lmdbench {
 /// Key of all but method, driver and probes: points that share it share truth and take turns.
 std::string scene_key(const Experiment& experiment);
 
+/// Key of all that a point measures, as its files are named: unlike `point_key` it reads none.
+std::string task_key(const SweepPoint& point);
+
 /// An input changed since the sweep began: keys no longer identify its points.
 class InputChanged : public InputError {
  public:
@@ -28,16 +31,20 @@ class InputChanged : public InputError {
 class InputHashes {
  public:
   std::string of(const std::filesystem::path& file);
+  /// Hash of the program: no input, so no limit of inputs holds for it.
+  const std::string& program();
   /// @throws InputChanged where a run was prepared from other bytes
   void check(const PreparedRun& run);
-  /// Those that exist, without the program.
+  /// Those that exist.
   std::vector<InputFile> files() const;
 
  private:
   std::map<std::string, InputFile> files_;
+  std::string program_;
 };
 
-/// A key made of all that a point's numbers depend on, the program included.
+/// A key made of all that a point's numbers depend on: the program, too, and what files hold, but
+/// not where they are.
 std::string point_key(const Sweep& sweep, const SweepPoint& point, InputHashes& hashes);
 
 /// The keys of all points, in their order.

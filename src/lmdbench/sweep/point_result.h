@@ -76,6 +76,7 @@ struct PointResult {
 };
 
 /// Puts errors and times together.
+/// @param runs that agree
 PointResult finish_point(PointErrors errors, const std::vector<PointRun>& runs, double frame_rate_hz);
 
 }  // namespace lmdbench

@@ -180,6 +180,19 @@ Json run_unit(const Sweep& sweep, const Unit& unit, SharedScene& scene, bool by_
   return line;
 }
 
+/// Whether repetitions of a point contradict each other.
+bool repetitions_differ(const Journal& journal, const std::string& key, std::int64_t repetitions) {
+  const Json* first = nullptr;
+  for (std::int64_t repetition = 0; repetition < repetitions; ++repetition) {
+    const Json* const entry = journal.find(key, repetition);
+    if (entry == nullptr) continue;
+    if (first == nullptr) first = entry;
+    for (const char* hash : {"result_hash", "work_hash"})
+      if (entry->value(hash, Json()) != first->value(hash, Json())) return true;
+  }
+  return false;
+}
+
 /// @throws InputError for a damaged line with the point's key
 PointResult finished_point(const SweepPoint& point, const std::string& key, std::int64_t repetitions,
                            const Journal& journal) {
@@ -214,7 +227,7 @@ std::filesystem::path journal_of(const std::filesystem::path& file) {
 bool is_finished(const Journal& journal, const std::string& key, std::int64_t repetitions) {
   for (std::int64_t repetition = 0; repetition < repetitions; ++repetition)
     if (journal.find(key, repetition) == nullptr) return false;
-  return true;
+  return !repetitions_differ(journal, key, repetitions);
 }
 
 std::vector<std::filesystem::path> inputs_of(const Sweep& sweep) {
@@ -233,6 +246,7 @@ SweepWork run_points(const Sweep& sweep, const std::vector<std::size_t>& points,
   std::vector<std::string> scenes;                          // in order of appearance
   std::map<std::string, std::vector<std::size_t>> members;  // points of a scene
   for (const std::size_t i : points) {
+    if (repetitions_differ(journal, keys[i], sweep.repetitions)) journal.discard(keys[i]);
     std::vector<std::size_t>& of_scene = members[scene_key(sweep.points[i].experiment)];
     if (of_scene.empty()) scenes.push_back(scene_key(sweep.points[i].experiment));
     of_scene.push_back(i);
@@ -262,6 +276,9 @@ SweepWork run_points(const Sweep& sweep, const std::vector<std::size_t>& points,
           line["key"] = keys[point];
           line["repetition"] = repetition;
           journal.append(std::move(line));
+          if (repetitions_differ(journal, keys[point], sweep.repetitions))
+            throw InputError("", "", "two repetitions differ in forces, LMDs or counters",
+                             "report it: a run depends on something that it must not depend on");
         } catch (const EnvironmentError&) {
           throw;  // a full disk is not the point's fault
         } catch (const InputChanged&) {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <regex>
 #include <set>
 #include <utility>
 
@@ -26,6 +27,21 @@ namespace fs = std::filesystem;
 
 constexpr const char* FEATURE_OF = "feature of {} (0 vertex, 1 edge, 2 face)";
 
+bool is_vtk(const fs::path& file) {
+  return file_begins_with(file, "<?xml version=\"1.0\"?>\n<VTKFile ");
+}
+
+/// Whether an export gives such names, to a file or to a frame in the folder of a series.
+bool is_export_name(const fs::path& file) {
+  static const std::regex NAMES(
+      "(movers|moving|lmds|forces|polylines|fixed_[0-9]+)(-.*)?\\.pvd|fixed_[0-9]+\\.vtu");
+  return std::regex_match(file.filename().string(), NAMES) && is_vtk(file);
+}
+bool is_frame_name(const fs::path& file) {
+  static const std::regex NAMES("[0-9]{6,}\\.vtu");
+  return std::regex_match(file.filename().string(), NAMES) && is_vtk(file);
+}
+
 /// Writes into the requested folder, and replaces earlier exports only.
 class Exporter {
  public:
@@ -33,17 +49,31 @@ class Exporter {
 
   void write(const fs::path& name, const std::string& text) {
     const fs::path file = folder_ / name;
-    const OutputKind kind{"VTK file", [](const fs::path& there) {
-                            return file_begins_with(there, "<?xml version=\"1.0\"?>\n<VTKFile ");
-                          }};
-    refuse_unsafe_output(file, kind, {input_}, "--out");
+    refuse_unsafe_output(file, {"VTK file", &is_vtk}, {input_}, "--out");
     write_file_atomically(file, text);
+    files_.insert(file);
   }
   void write_top(const fs::path& name, const std::string& text) {
     write(name, text);
     written_.push_back(folder_ / name);
   }
   const std::vector<fs::path>& written() const { return written_; }
+
+  /// Removes what an earlier export left and this one has not written: two results in one folder
+  /// would be shown as one.
+  void remove_stale() const {
+    for (const fs::path& file : listed(folder_)) {
+      if (!is_export_name(file)) continue;
+      const fs::path series = folder_ / file.stem();
+      if (file.extension() == ".pvd" && fs::is_directory(fs::symlink_status(series))) {
+        for (const fs::path& frame : listed(series))
+          if (is_frame_name(frame)) remove_unless_written(frame);
+        std::error_code not_empty;
+        fs::remove(series, not_empty);
+      }
+      remove_unless_written(file);
+    }
+  }
 
   /// The name of a series: "lmds-TRACK", or "lmds-of-TRACK" where a label has taken that.
   std::string series_name(const std::string& what, const std::string& track) {
@@ -54,8 +84,19 @@ class Exporter {
   }
 
  private:
+  static std::vector<fs::path> listed(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+    return files;
+  }
+  void remove_unless_written(const fs::path& file) const {
+    std::error_code ignored;  // of somebody else, or gone
+    if (!files_.contains(file)) fs::remove(file, ignored);
+  }
+
   fs::path input_, folder_;
   std::vector<fs::path> written_;
+  std::set<fs::path> files_;
   std::set<std::string> series_;
 };
 
@@ -212,15 +253,17 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
   SceneFrames frames(result_scene.rest, result_scene.motion);
   const Scene& scene = frames.scene();
   const std::unique_ptr<Method> exact = exact_method(scene);
-  std::vector<std::string> labels;
-  // A realtime run renders only the held object's force.
-  for (const std::string& label :
-       track.method.empty() ? result.groups("/methods") : std::vector<std::string>{track.method})
-    if (result.has("/methods/" + label + "/movers/force")) labels.push_back(label);
+  const std::vector<std::string> labels =
+      track.method.empty() ? result.groups("/methods") : std::vector<std::string>{track.method};
+  // A run on the clock renders only the held object's force.
+  const bool all_feel = std::ranges::all_of(
+      labels, [&](const std::string& label) { return result.has("/methods/" + label + "/movers/force"); });
+  const std::size_t felt = all_feel ? play.count() : 1;
   std::vector<std::vector<double>> force_of;
   for (const std::string& label : labels)
-    force_of.push_back(finite_reals_of_size(result, "/methods/" + label + "/movers/force",
-                                            3 * play.count() * result_scene.frames));
+    force_of.push_back(finite_reals_of_size(result,
+                                            "/methods/" + label + (all_feel ? "/movers/force" : "/force"),
+                                            3 * felt * result_scene.frames));
   Series movers(exporter, "movers", track.method), lmds(exporter, "lmds-movers", track.method),
       forces(exporter, "forces-movers", track.method);
   for (std::size_t i = 0; i < track.frames.size(); ++i) {
@@ -243,10 +286,11 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
       for (const std::int32_t end : mesh.ends) meshes.ends.push_back(ends + end);
       meshes.cell_data[0].values.insert(meshes.cell_data[0].values.end(), mesh.ends.size(),
                                         static_cast<double>(play.number[m]));
+      if (!all_feel && m != play.moving()) continue;
       middles.add({X_WM.point(play.references_M[m])});
       middles.point_data[0].values.push_back(static_cast<double>(play.number[m]));
       for (std::size_t l = 0; l < labels.size(); ++l) {
-        const Vec3 force = row(force_of[l], frame * play.count() + play.number[m]);
+        const Vec3 force = row(force_of[l], all_feel ? frame * felt + play.number[m] : frame);
         middles.point_data[l + 1].values.insert(middles.point_data[l + 1].values.end(), force.begin(),
                                                 force.end());
       }
@@ -263,7 +307,8 @@ void export_movers(Exporter& exporter, const ResultReader& result, const ResultS
   export_recorded(exporter, result, labels, track, result_scene.frames);
 }
 
-void export_polylines(Exporter& exporter, const ResultReader& result, const std::string& method) {
+void export_polylines(Exporter& exporter, const ResultReader& result, const ResultTrack& track) {
+  const std::string& method = track.method;
   std::vector<std::string> groups{"/polylines"};
   // Under several profiles each method holds those of its own cutoff, on the same poses.
   for (const std::string& label :
@@ -280,7 +325,8 @@ void export_polylines(Exporter& exporter, const ResultReader& result, const std:
   const std::vector<double> points = finite_reals_of_size(result, group + "/point", 3 * first_point.back());
   const std::vector<double> times = result.reals("/path/time");
   Series series(exporter, "polylines", method);
-  for (std::size_t f = 0; f < frames.size(); ++f) {
+  const std::size_t most = track.frames.size(), stride = (frames.size() + most - 1) / most;
+  for (std::size_t f = 0; f < frames.size(); f += stride) {
     VtuGrid grid;
     grid.cell = VtuCell::POLYLINE;
     for (std::size_t l = lines[f]; l < lines[f + 1]; ++l) {
@@ -304,6 +350,10 @@ std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& 
                                     std::size_t most_frames) {
   refuse_sweep(result);
   refuse_no_folder(folder, "--out");
+  for (const std::string& label : result.groups("/methods"))
+    if (const std::string force = "/methods/" + label + "/force"; !result.has(force))
+      throw InputError(result.file().string(), force, "is missing: the run kept no values of frames",
+                       "run the experiment again with --set /record/frames=true");
   const ResultScene result_scene = scene_of_result(result);
   Exporter exporter(result.file(), folder);
   const std::vector<ResultTrack> tracks = tracks_of_result(result, most_frames);
@@ -313,8 +363,9 @@ std::vector<fs::path> export_frames(const ResultReader& result, const fs::path& 
       export_movers(exporter, result, result_scene, track);
     else
       export_track(exporter, result, result_scene, track);
-    export_polylines(exporter, result, track.method);
+    export_polylines(exporter, result, track);
   }
+  exporter.remove_stale();
   return exporter.written();
 }
 

@@ -18,7 +18,9 @@ namespace lmdbench {
 ///   forces.pvd             each method's rendered force [N], at the middle of the moving mesh;
 ///   polylines.pvd          the curves in which the meshes intersect, where recorded.
 /// In a closed loop every method moves its own mesh: moving-METHOD.pvd, lmds-exact-METHOD.pvd,
-/// forces-METHOD.pvd. World coordinates [m], times [s]; a .pvd lists a file a frame, in its folder.
+/// forces-METHOD.pvd. Where several objects move: movers.pvd, lmds-movers.pvd, forces-movers.pvd
+/// (on the clock of the held one alone). World coordinates [m], times [s]; a .pvd lists a file a
+/// frame, in its folder. Replaces an earlier export in the folder as a whole.
 /// @param most_frames evenly spread, over all tracks together
 /// @return the collections and meshes
 /// @throws InputError where a mesh of the result is missing or differs from that of the run,

@@ -155,7 +155,7 @@ class Search:
         self.moving = as_mesh(moving, "moving")  #: a Mesh
         self.fixed = [as_mesh(mesh, "fixed") for mesh in several]  #: a list of Mesh
         self._search = _lmdbench.Search(self.moving._mesh, [mesh._mesh for mesh in self.fixed], float(cutoff), method,
-                                        json.dumps(options, default=_plain))
+                                        _json_of(options))
 
     def __call__(self, poses: PosesLike) -> LmdSets:
         """The LMD sets of all poses: (N, 4, 4), (4, 4) or the name of a TUM file."""
@@ -175,6 +175,15 @@ def _plain(value: object) -> object:
     if isinstance(value, np.generic):
         return value.item()
     raise TypeError(f"an option of type {type(value).__name__} (remedy: a text, a number or a truth value)")
+
+
+def _json_of(options: dict[str, object]) -> str:
+    for name, value in options.items():
+        try:
+            json.dumps(value, default=_plain, allow_nan=False)
+        except ValueError:
+            raise UsageError(f"options: {name}: {value} is no value of an option (remedy: a finite number)") from None
+    return json.dumps(options, default=_plain)
 
 
 def as_mesh(mesh: MeshLike, name: str = "mesh") -> Mesh:

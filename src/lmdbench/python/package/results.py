@@ -37,18 +37,22 @@ class ResultFrames:
         return table
 
     def movers(self, method: str) -> pd.DataFrame:
-        """A row a mover and frame, where several meshes move: frame, mover (0: the moving mesh), position, what it felt. Empty where not."""
+        """A row a mover and frame, where several meshes move: frame, mover (0: the moving mesh), its pose at this method, what it felt.
+        Empty where not."""
         group = self._group(method)
         if "movers" not in group:
             return pd.DataFrame()
-        datasets = {"position": self.result.h5["/path/movers/position"], **_datasets(group["movers"])}
-        frames, movers = datasets["position"].shape[:2]
+        poses = _datasets(self.result.h5["/path/movers"])
+        datasets = {name: (item, item[()]) for name, item in {**poses, **_datasets(group["movers"])}.items()}
+        if "path" in group:  # in a closed loop the method moves the moving mesh, and the column has what was meant
+            for name in poses:
+                datasets[name][1][:, 0] = group[f"path/{name}"][()]
+        frames, movers = datasets["position"][1].shape[:2]
         columns = {"frame": np.repeat(np.arange(frames), movers), "mover": np.tile(np.arange(movers), frames)}
         units = {"frame": "1", "mover": "1"}
-        for name, item in datasets.items():
-            values = item[()].reshape(frames * movers, -1)
-            endings = AXES[3] if item.ndim == 3 else ("",)
-            for ending, column in zip(endings, values.T):
+        for name, (item, values) in datasets.items():
+            endings = AXES[values.shape[2]] if values.ndim == 3 else ("",)
+            for ending, column in zip(endings, values.reshape(frames * movers, -1).T):
                 columns[name + ending] = column
                 units[name + ending] = _unit(item)
         table = pd.DataFrame(columns)
