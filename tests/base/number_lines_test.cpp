@@ -34,6 +34,10 @@ TEST(NumberLines, BlanksAndCommasSeparateAndCommentsAreLeftOut) {
   EXPECT_THAT(lines_of("# x y\n1 -2e-3,3\r\n\n   # nothing\n4.5 # five\n"),
               ElementsAre(Pair("line 2", ElementsAre(1.0, -2e-3, 3.0)), Pair("line 5", ElementsAre(4.5))));
   EXPECT_TRUE(lines_of("").empty());
+  EXPECT_THAT(lines_of("\xEF\xBB\xBF"
+                       "1 2\n"),
+              ElementsAre(Pair("line 1", ElementsAre(1.0, 2.0))))
+      << "a byte order mark";
 }
 
 TEST(NumberLines, WhatIsNoFiniteNumberIsNamedWithItsLine) {

@@ -23,5 +23,12 @@ TEST(PlainName, OfOtherAlphabetsStayTwo) {
   EXPECT_TRUE(plain_name("p\u00e9g", "_").starts_with("pg-"));
 }
 
+TEST(ShellWord, IsQuotedWhereItMustBe) {
+  EXPECT_EQ(shell_word("my/p\u00e9g-1.off"), "my/p\u00e9g-1.off");
+  EXPECT_EQ(shell_word("my parts/$a.off"), "'my parts/$a.off'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
 }  // namespace
 }  // namespace lmdbench

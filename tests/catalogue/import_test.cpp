@@ -213,6 +213,30 @@ TEST(ImportTest, StlTextEndsWithItsLastLine) {
   EXPECT_GT(import_mesh(folder.write("c.stl", binary)).triangles.size(), 100u);
 }
 
+TEST(ImportTest, StlTextMayBeginWithBlanksAndHaveOtherLetters) {
+  const ScratchDirectory folder;
+  const std::string text =
+      "solid \xC3\xA4\n FACET normal 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nvertex +1 0 0\nvertex 0 1E0 "
+      "0\nendloop\nendfacet\nENDSOLID\n";
+  for (const char* before : {"", "\n  \n", "\xEF\xBB\xBF"})
+    EXPECT_EQ(import_mesh(folder.write("a.stl", before + text)).triangles.size(), 1u) << before;
+}
+
+TEST(ImportTest, TextMayBeginWithAByteOrderMark) {
+  const ScratchDirectory folder;
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const auto& [name, text] :
+       {std::pair<const char*, std::string>{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+        {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+        {"a.ply", ply}})
+    EXPECT_EQ(import_mesh(folder.write(name, mark + text)).triangle(0),
+              (std::array<Vec3, 3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}))
+        << name;
+}
+
 TEST(ImportTest, KeepsTrianglesWithoutArea) {
   const ScratchDirectory folder;
   const TriangleMesh mesh = import_mesh(
@@ -238,6 +262,11 @@ const std::string PLY_HEADER =
     "face 1\n"
     "property list uchar int vertex_indices\nend_header\n";
 
+std::string stl_with(const std::string& second_vertex) {
+  return "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n" + second_vertex +
+         "\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenMeshTest,
     ::testing::Values(
@@ -258,12 +287,20 @@ INSTANTIATE_TEST_SUITE_P(
                    "line 2: a coordinate is missing"},
         BrokenMesh{"obj_five", "a.obj", "v 0 0 0\nv 1 0 0 0 0\nv 0 1 0\nf 1 2 3\n", "line 2: a vertex of 5"},
         BrokenMesh{"obj_corner", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/x y/2\n",
-                   "line 4: a vertex index 'y' is not a number"},
+                   "line 4: a vertex index 'y' is not a whole number"},
         BrokenMesh{
             "stl_text_cut", "a.stl",
             "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
             "endfacet\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
             "ends without 'endsolid'"},
+        BrokenMesh{"stl_dots", "a.stl", stl_with("vertex 1.5.5 0 0"), "line 5: a coordinate '1.5.5'"},
+        BrokenMesh{"stl_four", "a.stl", stl_with("vertex 1 0 0 7"), "line 5: a vertex goes on with '7'"},
+        BrokenMesh{"stl_two", "a.stl", stl_with("vertex 1 0"), "line 5: a coordinate is missing"},
+        BrokenMesh{"stl_word", "a.stl", "\n" + stl_with("vertex abc 0 0"), "line 6: a coordinate 'abc'"},
+        BrokenMesh{"stl_of_neither_form", "a.stl", "hello\n", "neither text that begins with 'solid'"},
+        BrokenMesh{"stl_binary_long", "a.stl",
+                   std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(70, ' '),
+                   "remedy: correct the counts"},
         BrokenMesh{"stl_binary_cut", "a.stl",
                    std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(70, ' '), "2 triangles"},
         BrokenMesh{"stl_binary_cut_of_solids", "a.stl",
@@ -277,6 +314,28 @@ INSTANTIATE_TEST_SUITE_P(
                        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
                        "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})",
                    "export as .glb"},
+        BrokenMesh{"gltf_of_version_1", "a.gltf", R"({"asset": {"version": "1.0"}})",
+                   "remedy: check that it"},
+        BrokenMesh{"ply_dots", "a.ply", PLY_HEADER + "0 0 0\n1.5.5 0 0\n0 1 0\n3 0 1 2\n",
+                   "line 11: x '1.5.5'"},
+        BrokenMesh{"ply_fraction", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1.7 2\n",
+                   "line 13: vertex_indices '1.7' is not a whole number"},
+        BrokenMesh{"ply_long_line", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 5\n",
+                   "line 13: face 0 goes on behind its vertex_indices"},
+        BrokenMesh{"ply_two_a_line", "a.ply", PLY_HEADER + "0 0 0 1 0 0\n0 1 0\n3 0 1 2\n",
+                   "line 10: vertex 0"},
+        BrokenMesh{"ply_on_two_lines", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3\n0 1 2\n",
+                   "line 13: vertex_indices is missing"},
+        BrokenMesh{"ply_comment", "a.ply", PLY_HEADER + "0 0 0\n# one\n1 0 0\n0 1 0\n3 0 1 2\n",
+                   "line 11: '#'"},
+        BrokenMesh{"ply_cut", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n", "face 0 of 1: is not there"},
+        BrokenMesh{"ply_long", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
+                   "remedy: correct the counts"},
+        BrokenMesh{
+            "ply_flat", "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement face "
+            "1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n3 0 1 2\n",
+            "has no property z"},
         BrokenMesh{"ply_index", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "names vertex 5"},
         BrokenMesh{"ply_nan", "a.ply", PLY_HEADER + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", "vertex 1"},
         BrokenMesh{"coff_cut_short", "a.off", "COFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "1 of 4 faces"},

@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenOff{"index_too_large", THREE + "3 0 1 3\n", "line 6", "face 0 names vertex 3"},
         BrokenOff{"index_negative", THREE + "3 0 1 -2\n", "line 6", "face 0 names vertex -2"},
         BrokenOff{"index_missing", THREE + "3 0 1\n", "line 6", "missing"},
-        BrokenOff{"index_fraction", THREE + "3 0 1 1.5\n", "line 6", "'1.5' is not a number"},
+        BrokenOff{"index_fraction", THREE + "3 0 1 1.5\n", "line 6", "'1.5' is not a whole number"},
         BrokenOff{"no_fan",
                   "OFF\n8 1 0\n0 0 0\n3 0 0\n3 3 0\n2 3 0\n2 1 0\n1 1 0\n1 3 0\n0 3 0\n8 0 1 2 3 4 5 6 7\n",
                   "line 11", "no fan of triangles"},

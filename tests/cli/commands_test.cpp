@@ -6,12 +6,14 @@
 
 #include "program.h"
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <support/source_directory.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -102,6 +104,40 @@ TEST(PathCommand, RepeatsThePathThatInitMakesFarFromTheOrigin) {
   EXPECT_EQ(lmdbench("init a.off b.off --out new", scratch.path()).code, 0);
   const Outcome outcome = lmdbench("path generate new/a-b.path.json --out p.tum", scratch.path());
   EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST(PathCommand, CountsFramesAboutTheWantedGapFromThePathsBegin) {
+  const ScratchDirectory scratch;
+  scratch.write("ball.off", to_off_text(make_sphere(1.0, 2)));
+  const double diagonal = bounding_box_diagonal(make_sphere(1.0, 2));
+  const std::string spec = R"({"moving": {"mesh": "./ball.off"}, "fixed": {"mesh": "./ball.off"},
+    "frame_rate_hz": 4, "seed": 1, "start_direction": [1, 0, 0], "slide_rate_deg_per_s": 1,
+    "turn_rate_deg_per_s": 1, "gap_floor": 0.0001, "gaps": [{"time_s": 0, "gap": 0.1}, {"time_s": 1, "gap": )";
+  scratch.write("s.json", spec + "0.1}]}");
+  const auto at_wanted_gap = [&](double gap, int code) {
+    const double x = 2.0 + gap * diagonal;
+    scratch.write("p.tum", fmt::format("10 {0} 0 0 0 0 0 1\n11 {0} 0 0 0 0 0 1\n", x));
+    const Outcome outcome = lmdbench("path info p.tum --spec s.json --json", scratch.path());
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    return nlohmann::json::parse(outcome.out)["frames_at_wanted_gap"].get<int>();
+  };
+  EXPECT_EQ(at_wanted_gap(0.1, 0), 5);
+  EXPECT_EQ(at_wanted_gap(0.05, 0), 0) << "far too near";
+  EXPECT_EQ(at_wanted_gap(-0.05, 1), 0) << "they intersect";
+  EXPECT_EQ(at_wanted_gap(0.2, 0), 0);
+  scratch.write("s.json", spec + "0.5}]}");
+  EXPECT_EQ(at_wanted_gap(0.1, 0), 1) << "the first frame alone, at time 10";
+}
+
+TEST(PathCommand, APathOfTwoFramesHasNoAcceleration) {
+  const ScratchDirectory scratch;
+  scratch.write("p.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  for (const char* rate : {"0.5", "1"}) {
+    const Outcome outcome = lmdbench(std::string("path info p.tum --rate ") + rate, scratch.path());
+    EXPECT_THAT(outcome.out, AllOf(Not(HasSubstr("nan")), HasSubstr("shorter than two frames")))
+        << outcome.out;
+  }
+  EXPECT_THAT(lmdbench("path info p.tum --rate 2", scratch.path()).out, HasSubstr("at most 1 m/s"));
 }
 
 class StopSignals : public ::testing::TestWithParam<std::pair<const char*, int>> {};
@@ -244,6 +280,8 @@ TEST(InitCommand, UnlikeUnitsNeedAWord) {
   EXPECT_THAT(refused.err, HasSubstr("--unit mm,m"));
   const Outcome taken = lmdbench("init box.off metres.off --out new --unit mm,m", scratch.path());
   EXPECT_EQ(taken.code, 0) << taken.err;
+  const Outcome unlike = lmdbench("init box.off metres.off --out other --unit m,m", scratch.path());
+  EXPECT_THAT(unlike.err, AllOf(HasSubstr("1000 times as much"), Not(HasSubstr("says no unit"))));
 }
 
 TEST(InitCommand, ContactsAreReadyForStability) {
@@ -297,6 +335,36 @@ TEST(MeshCommand, SaysWhereAMeshCrossesItselfAndIsInsideOut) {
   EXPECT_THAT(turned.out, HasSubstr("--orient outward"));
 }
 
+/// A prism whose walls are cut in two and whose ends have the corners of both.
+TEST(MeshCommand, JudgesAMeshAsARunTakesIt) {
+  const ScratchDirectory scratch;
+  scratch.write(
+      "p.obj",
+      "v 0 0 0\nv 5 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 0 0 5\nv 5 0 5\nv 10 0 5\nv 10 10 5\n"
+      "v 0 10 5\nf 5 4 3 2 1\nf 6 7 8 9 10\nf 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 10 9\nf 5 1 6 10\n");
+  const Outcome info = lmdbench("mesh info p.obj", scratch.path());
+  EXPECT_THAT(info.out, AllOf(HasSubstr("crosses self  none"), Not(HasSubstr("finding")),
+                              HasSubstr("repairs       1 flat triangle, ")));
+  const Outcome made = lmdbench("init p.obj p.obj --out new", scratch.path());
+  EXPECT_THAT(made.err, Not(HasSubstr("touch or cross"))) << made.err;
+}
+
+TEST(InitCommand, LooksAtItsFolderFirstAndQuotesIt) {
+  const ScratchDirectory scratch;
+  scratch.write("box.off", to_off_text(make_box({0.04, 0.06, 0.02})));
+  const Outcome refused = lmdbench("init box.off box.off --out box.off/new", scratch.path());
+  EXPECT_EQ(refused.code, ENVIRONMENT);
+  EXPECT_THAT(refused.err, HasSubstr("box.off is a file (remedy: name another folder with --out)"));
+  std::filesystem::create_directory(scratch / "my parts");
+  const std::filesystem::path link = scratch / "my parts" / "box-box.tum";
+  std::filesystem::create_symlink("nowhere.tum", link);
+  EXPECT_EQ(lmdbench("init box.off box.off --out 'my parts'", scratch.path()).code, USAGE);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  std::filesystem::remove(link);
+  EXPECT_THAT(lmdbench("init box.off box.off --out 'my parts'", scratch.path()).out,
+              HasSubstr("lmdbench run 'my parts/box-box.json'\n"));
+}
+
 /// Two unit cubes; the moving one stands above the fixed one by the pose's z - 1.
 class QueryCommand : public ::testing::Test {
  protected:
@@ -330,6 +398,14 @@ TEST_F(QueryCommand, TakesUnitsAndTurnsWhatIsInsideOut) {
   EXPECT_EQ(found(inside_out, "--unit mm --orient outward")["lmds"], found(mesh, "--unit mm")["lmds"]);
   EXPECT_EQ(lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 1 --unit mile").code,
             USAGE);
+  const Outcome large =
+      lmdbench("query --moving '" + mesh + "' --fixed '" + mesh + "' --cutoff 1 --unit 1e200");
+  EXPECT_EQ(large.code, INPUT_DATA);
+  EXPECT_THAT(large.err, HasSubstr("cube.off: --unit 1e200: "));
+  EXPECT_THAT(lmdbench("query --moving '" + mesh + "' --fixed '" + mesh +
+                       "' --cutoff 1 --option kernel=scalar --option kernel=scalar")
+                  .err,
+              HasSubstr("kernel is given twice"));
 }
 
 TEST_F(QueryCommand, PrintsALineAPoseInWorldCoordinates) {

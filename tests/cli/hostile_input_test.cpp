@@ -138,7 +138,7 @@ TEST_F(HostileInput, WhatIsNoRegularFile) {
     refusal("plan " + file, USAGE);
     refusal("path info " + file, INPUT_DATA);
     refusal("mesh info " + file, INPUT_DATA);
-    refusal("path generate " + file + " --out " + path("out"), INPUT_DATA);
+    refusal("path generate " + file + " --out " + path("out"), USAGE);
   }
   EXPECT_THAT(refusal("mesh info " + path("fifo.off"), INPUT_DATA), HasSubstr("FIFO"));
 }

@@ -5,12 +5,17 @@
 #include <lmdbench/mesh/flaws.h>
 #include <lmdbench/mesh/orientation_choice.h>
 #include <lmdbench/mesh/validity.h>
+#include <lmdbench/mesh/winding_number.h>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -85,7 +90,11 @@ TEST(OrientOutward, PiecesThatTouchAreEnclosedOnlyIfTheyAreInside) {
        "in the nook of an L"},
       {merged(box, inside_out(translated(small, {0.25, 0, 0}))), "a cavity up to a face"},
       {merged(box, inside_out(translated(small, {0.25, 0.25, 0.25}))), "a cavity up to a corner"}};
-  for (const auto& [sound, what] : scenes) {
+  const Vec3 axis = Vec3(1, 2, 3).normalized();
+  for (int turns = 0; turns < 50; ++turns) {
+    const auto& [upright, what] = scenes[turns % std::ssize(scenes)];
+    TriangleMesh sound = upright;
+    for (Vec3& vertex : sound.vertices) vertex = Eigen::AngleAxisd(0.3 * turns, axis) * vertex;
     for (std::size_t first = 0; first < sound.triangles.size(); ++first) {
       TriangleMesh mesh = sound;
       std::ranges::rotate(mesh.triangles, mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first));
@@ -94,6 +103,38 @@ TEST(OrientOutward, PiecesThatTouchAreEnclosedOnlyIfTheyAreInside) {
         EXPECT_EQ(orient_outward(mesh).turned_triangles, 0) << what << ", " << first << ", " << corner;
       }
     }
+  }
+}
+
+TEST(NearWinding, IsTheSumOverAllTriangles) {
+  const TriangleMesh mesh = make_torus(1, 0.3, 48, 24);
+  std::vector<std::int32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  const NearWinding near(mesh, all);
+  int inside = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 point(1.5 * std::sin(i), 1.5 * std::sin(2.3 * i), 0.4 * std::sin(3.1 * i));
+    const double exact = winding_number(point, mesh);
+    EXPECT_NEAR(near.at(point), exact, 0.05) << i;
+    inside += exact > 0.5 ? 1 : 0;
+  }
+  EXPECT_GT(inside, 10);
+}
+
+TEST(OrientOutward, ACopyIsNoCavity) {
+  TriangleMesh mesh = merged(make_sphere(1, 2), make_sphere(1, 2));
+  EXPECT_EQ(orient_outward(mesh).turned_triangles, 0);
+}
+
+/// One end of the bar lies within the L, the other in its nook, and its box within the L's.
+TEST(OrientOutward, APieceThatSticksOutIsNoCavity) {
+  const TriangleMesh nook = make_l_block(2);
+  const TriangleMesh bar =
+      translated(make_box({0.2, 1.6, 0.2}, 2), {0.3, 0.0, bounding_box_centre(nook).z()});
+  for (std::size_t first = 0; first < bar.triangles.size(); ++first) {
+    TriangleMesh mesh = merged(bar, nook);
+    std::ranges::rotate(mesh.triangles, mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first));
+    EXPECT_EQ(orient_outward(mesh).turned_triangles, 0) << first;
   }
 }
 

@@ -53,6 +53,9 @@ TEST(Placement, IsWrittenAsItIsRead) {
 
 TEST(Placement, NothingHasNoDiagonalToScale) {
   EXPECT_THROW(placed(TriangleMesh{}, {.diagonal = 1.0}), InputError);
+  EXPECT_THROW(refuse_extreme_size(TriangleMesh{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}}, ""),
+               InputError)
+      << "nor a size";
 }
 
 }  // namespace

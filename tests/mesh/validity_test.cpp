@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace lmdbench {
@@ -75,6 +77,37 @@ TEST(ValidityTest, SeesWhatIsInsideOut) {
   const ValidityReport report = report_of(box);
   EXPECT_EQ(report.outward, false);
   EXPECT_THAT(findings(report), ElementsAre(HasSubstr("inside out")));
+}
+
+TEST(ValidityTest, SeesPiecesThatAreInsideOut) {
+  TriangleMesh turned = make_box({1, 1, 1});
+  for (auto& corners : turned.triangles) std::swap(corners[0], corners[1]);
+  const TriangleMesh large = make_box({3, 3, 3});
+  for (const auto& mesh :
+       {merged(large, translated(turned, {5, 0, 0})), merged(large, make_box({1, 1, 1}))}) {
+    const ValidityReport report = report_of(mesh);
+    EXPECT_EQ(report.outward, false);
+    EXPECT_EQ(report.inward_triangles, 12);
+    EXPECT_THAT(findings(report), ElementsAre(HasSubstr("inside out: the normals of 12 of 24 triangles")));
+  }
+  EXPECT_EQ(report_of(merged(large, turned)).outward, true) << "a cavity";
+  turned.triangles.pop_back();
+  const ValidityReport open = report_of(turned);
+  EXPECT_EQ(open.outward, false);
+  EXPECT_THAT(findings(open), ElementsAre(HasSubstr("inside out"), HasSubstr("open")));
+}
+
+TEST(ValidityTest, WhatHasNoVolumeHasNoOuterSide) {
+  const double c = std::sqrt(0.5);  // tilted: the volume is rounding
+  for (const auto& corners : {std::array<Vec3, 3>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+                              {{{0.1, 0.2, 0.3}, {0.7, 0.2 + c, 0.9}, {1.1 * c, 2.3, -0.3 * c}}}}) {
+    const TriangleMesh sheet{{corners.begin(), corners.end()}, {{0, 1, 2}, {0, 2, 1}}};
+    for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(10, 20, 30)}) {
+      const ValidityReport report = report_of(translated(sheet, offset));
+      EXPECT_TRUE(report.closed);
+      EXPECT_EQ(report.outward, std::nullopt);
+    }
+  }
 }
 
 TEST(ValidityTest, SeesOneTurnedTriangle) {

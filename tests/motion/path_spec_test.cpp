@@ -124,7 +124,7 @@ TEST(PathSpec, ComplaintsNameThePlace) {
 }
 
 TEST(PathSpec, MissingFileIsNamed) {
-  EXPECT_THROW(read_path_spec("no/such/spec.json"), InputError);
+  EXPECT_THROW(read_path_spec("no/such/spec.json"), UsageError);
 }
 
 }  // namespace

@@ -132,6 +132,14 @@ TEST(ReadTum, ComplaintsNameFileLineAndRemedy) {
   EXPECT_THAT(tum_complaint(""), HasSubstr("holds no pose"));
 }
 
+TEST(ReadTum, AByteOrderMarkIsSkipped) {
+  EXPECT_EQ(read_text("\xEF\xBB\xBF"
+                      "7 0 0 0 0 0 0 1\n")
+                .front()
+                .time,
+            7.0);
+}
+
 TEST(ReadTum, QuaternionToleranceIsOnTheLength) {
   EXPECT_EQ(tum_complaint("0 0 0 0 0 0 0 1.00099\n"), "");
   EXPECT_EQ(tum_complaint("0 0 0 0 0 0 0 0.99901\n"), "");

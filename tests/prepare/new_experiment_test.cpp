@@ -107,7 +107,7 @@ TEST_F(InitTest, UnlikeSizesAreRefusedUnlessSomebodySaysTheirUnits) {
   EXPECT_THAT(message, HasSubstr("times apart"));
   const Json json = made(pin, plate, {.unit = "mm,m"});
   EXPECT_EQ(json["moving"]["scale"], 0.001);
-  EXPECT_FALSE(json["fixed"][0].contains("scale"));
+  EXPECT_EQ(json["fixed"][0]["scale"], 1.0) << "said, not taken";
 }
 
 TEST_F(InitTest, PartsOfAnAssemblyKeepTheirPlaceAndOthersAreCentred) {
@@ -146,6 +146,18 @@ TEST_F(InitTest, SizesThatTellOfAnotherUnitAreTold) {
   EXPECT_TRUE(told(metres, metres).empty());
 }
 
+TEST_F(InitTest, AWrongVertexFileIsToldAtItsPlace) {
+  const std::string mesh = write("box.off", make_box({0.05, 0.04, 0.03}));
+  const std::string file = scratch_.write("box.xyz", "1 2\n");
+  const Experiment deforming = parse_experiment(
+      fmt::format(
+          R"({{"moving": {{"mesh": "{0}"}}, "fixed": [{{"mesh": "{0}", "deformation": {{"files": ["{1}"]}}}}]}})",
+          mesh, file),
+      scratch_ / "two.json");
+  EXPECT_THAT(testing::message_of<InputError>([&] { load_scene(deforming); }),
+              ::testing::AllOf(HasSubstr("/fixed/0/deformation/files: "), HasSubstr("2 numbers")));
+}
+
 TEST_F(InitTest, HolesAndSelfIntersectionsAreTold) {
   TriangleMesh open = make_box({50, 40, 30});
   open.triangles.pop_back();
@@ -165,6 +177,10 @@ TEST_F(InitTest, MeshesThatAreInsideOutAreTurned) {
   const NewExperiment experiment = make(turned, ball);
   EXPECT_EQ(Json::parse(experiment.experiment_text)["moving"]["orient"], "outward");
   EXPECT_FALSE(made(sound, ball)["moving"].contains("orient"));
+  const std::string bodies = write(
+      "bodies.off",
+      merged(make_box({0.2, 0.1, 0.1}), translated(inside_out(make_box({0.1, 0.1, 0.1})), {0.3, 0.0, 0.0})));
+  EXPECT_EQ(made(bodies, ball)["moving"]["orient"], "outward") << "one body of two";
   EXPECT_FALSE(made(turned, ball, {.orientation = OrientationChoice::KEEP})["moving"].contains("orient"));
 
   write_new_experiment(experiment);

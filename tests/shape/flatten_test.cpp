@@ -180,7 +180,23 @@ TEST(Flatten, LeavesCurvedShapesAlone) {
     EXPECT_EQ(report.moved_vertices, 0);
     EXPECT_EQ(mesh.vertices, before.vertices);
     EXPECT_EQ(mesh.planar_tolerance, 0.0);
+    EXPECT_FALSE(says_something(report));
   }
+}
+
+TEST(Flatten, SaysWhatAGivenToleranceLeaves) {
+  const auto text_of = [](TriangleMesh mesh, double tolerance) {
+    const TriangleMesh before = mesh;
+    const FlatteningReport report = flatten(mesh, {PlanarTolerance::Kind::LENGTH, tolerance});
+    EXPECT_EQ(mesh.vertices, before.vertices);
+    EXPECT_TRUE(says_something(report));
+    return to_text(report);
+  };
+  const std::string chance = text_of(turned(make_blob(0.5, 0.1, 4), 5), 2e-4);
+  EXPECT_NE(chance.find("as chance explains as many (remedy: a smaller"), std::string::npos) << chance;
+  const std::string noise = text_of(turned(make_box({1, 1, 1}, 4), 5), 0.02);
+  EXPECT_NE(noise.find("; 192 triangles are lower than 16 tolerances"), std::string::npos) << noise;
+  EXPECT_EQ(noise.find("had to be"), std::string::npos) << noise;
 }
 
 TEST(Flatten, LeavesFlatFloatsAndDoublesAloneAndSaysSo) {

@@ -23,7 +23,7 @@ bool has_t_junctions(TriangleMesh mesh) {
 
 bool is_solid(const Body& body, bool by_design) {
   const ValidityReport report = check_mesh(body.surface());
-  return report.closed && report.outward.value_or(false) && !has_t_junctions(body.surface().mesh) &&
+  return report.closed && report.volume.value_or(0.0) > 0.0 && !has_t_junctions(body.surface().mesh) &&
          (by_design || (report.manifold && report.duplicate_triangles == 0 &&
                         self_intersections(body.surface().mesh).pairs == 0));
 }

@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -132,6 +133,11 @@ FileContent read_input_file(const std::filesystem::path& file, const InputKind& 
   return input;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view MARK = "\xEF\xBB\xBF";
+  return text.substr(text.starts_with(MARK) ? MARK.size() : 0);
+}
+
 namespace {
 
 /// Such a cell would shift all behind it.
@@ -154,7 +160,7 @@ bool has_empty_cell(const std::string& line) {
 void for_each_number_line(
     const std::string& text, const std::string& name, const std::string& remedy,
     const std::function<void(const std::string& place, std::span<const double> numbers)>& use) {
-  std::istringstream lines(text);
+  std::istringstream lines{std::string(without_byte_order_mark(text))};
   std::vector<double> numbers;
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace lmdbench {
 
@@ -39,6 +40,9 @@ std::filesystem::path shortened(const std::filesystem::path& file);
 /// sockets without waiting for them.
 /// @throws InputError (or UsageError: kind.code): missing, not regular, too large, unreadable
 FileContent read_input_file(const std::filesystem::path& file, const InputKind& kind);
+
+/// The text behind the UTF-8 byte order mark that some editors begin files with.
+std::string_view without_byte_order_mark(std::string_view text);
 
 /// Goes through text whose lines hold numbers, separated by blanks or commas; `#` begins a comment.
 /// Skips lines without a number.

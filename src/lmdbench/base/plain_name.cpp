@@ -4,6 +4,7 @@
 #include <lmdbench/base/plain_name.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace lmdbench {
 
@@ -23,6 +24,17 @@ std::string plain_name(std::string_view stem, std::string_view also) {
   name.erase(0, std::min(name.find_first_of(ALPHANUMERIC), name.size()));
   if (!is_ascii) name += (name.empty() ? "" : "-") + sha256_of_text(stem).substr(0, HASH_DIGITS);
   return name;
+}
+
+std::string shell_word(const std::string& text) {
+  const auto is_plain = [](unsigned char c) {
+    return c >= 128 || std::isalnum(c) != 0 ||
+           std::string_view("-_./+,:@%=").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
 }
 
 }  // namespace lmdbench

@@ -12,4 +12,7 @@ namespace lmdbench {
 /// it follows: two such names stay two. May be empty.
 std::string plain_name(std::string_view stem, std::string_view also);
 
+/// A word of a shell command: quoted where a shell would not take it as it is.
+std::string shell_word(const std::string& text);
+
 }  // namespace lmdbench

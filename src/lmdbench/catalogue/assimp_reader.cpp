@@ -220,7 +220,11 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
       std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
     throw std::bad_alloc();
   if (scene == nullptr)
-    throw InputError(file, "", importer.GetErrorString(), extension == "gltf" ? GLTF_REMEDY : FORMAT_REMEDY);
+    throw InputError(
+        file, "", importer.GetErrorString(),
+        std::string_view(importer.GetErrorString()).find("open referenced file") != std::string_view::npos
+            ? GLTF_REMEDY
+            : FORMAT_REMEDY);
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);
   SceneMerger(*scene, file).check_indices();
   if (SceneMerger(*scene, file).has_polygons()) {

@@ -32,21 +32,21 @@ std::string extension_of(const std::filesystem::path& file) {
 TriangleMesh read_format(const FileContent& content) {
   const std::string file = content.file.string();
   const std::string extension = extension_of(content.file);
-  if (extension == "off") return parse_off(content.bytes, file);
+  const std::string_view text = without_byte_order_mark(content.bytes);  // if it is text
+  if (extension == "off") return parse_off(text, file);
   const auto known = assimp_extensions();
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw InputError(
         file, "", fmt::format("'{}' is no extension of a mesh format that is read", extension),
         fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, {})", fmt::join(known, ", ")));
   if (extension == "ply")
-    return read_with_assimp(with_its_first_byte(content.bytes, check_ply(content.bytes, file)), extension,
-                            file);
+    return read_with_assimp(with_its_first_byte(text, check_ply(text, file)), extension, file);
   if (extension == "obj") {
-    const std::string text = without_materials(content.bytes);
-    check_obj(text, file);
-    return read_with_assimp(text, extension, file);
+    const std::string plain = without_materials(text);
+    check_obj(plain, file);
+    return read_with_assimp(plain, extension, file);
   }
-  if (extension == "stl") check_stl(content.bytes, file);
+  if (extension == "stl") return read_with_assimp(checked_stl(content.bytes, file), extension, file);
   return read_with_assimp(content.bytes, extension, file);
 }
 

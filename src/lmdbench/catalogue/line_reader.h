@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace lmdbench {
@@ -59,7 +60,7 @@ class LineReader {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) fail(fmt::format("{} '{}' is out of range", what, text));
     if (error != std::errc{} || end != text.data() + text.size())
-      fail(fmt::format("{} '{}' is not a number", what, text));
+      fail(fmt::format("{} '{}' is not a {}number", what, text, std::is_integral_v<Number> ? "whole " : ""));
     return value;
   }
 

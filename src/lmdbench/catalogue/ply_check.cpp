@@ -18,7 +18,7 @@
 namespace lmdbench {
 namespace {
 
-/// Separators of words in a PLY file; line ends are as good as blanks.
+/// Separators of words in a header.
 constexpr std::string_view PLY_BLANKS = " \t\r\n\v\f";
 
 struct ScalarType {
@@ -46,6 +46,7 @@ constexpr std::array<ScalarType, 16> SCALAR_TYPES{{{"char", 1, true, true},
                                                    {"float64", 8, false, true}}};
 
 struct Property {
+  std::string name;
   ScalarType type;                  ///< Of a list: of its items.
   std::optional<ScalarType> count;  ///< Of a list: of its length.
   bool is_polygon = false;          ///< The list of a face's corners.
@@ -95,14 +96,24 @@ class HeaderReader {
       }
     }
     if (!form_) fail("the header names no format");
+    refuse_flat_vertices();
     return std::move(elements_);
   }
   Form form() const { return *form_; }
+  std::size_t lines() const { return line_number_; }
   std::string_view body() const { return rest_; }
 
  private:
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "correct the header") const {
     throw InputError(file_, fmt::format("line {}", line_number_), problem, remedy);
+  }
+
+  void refuse_flat_vertices() const {
+    for (const Element& element : elements_)
+      for (const char* name : {"x", "y", "z"})
+        if (element.name == "vertex" &&
+            std::ranges::find(element.properties, name, &Property::name) == element.properties.end())
+          fail(fmt::format("element 'vertex' has no property {}", name), "export the mesh with x, y and z");
   }
 
   std::string_view next_line() {
@@ -154,9 +165,10 @@ class HeaderReader {
       word = next_word(line);
     }
     property.type = type_of(word);
-    const std::string_view name = next_word(line);
-    if (name.empty()) fail("a property has no name");
-    property.is_polygon = property.count && (name == "vertex_indices" || name == "vertex_index");
+    property.name = next_word(line);
+    if (property.name.empty()) fail("a property has no name");
+    property.is_polygon =
+        property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
     elements_.back().properties.push_back(property);
   }
 
@@ -170,22 +182,37 @@ class HeaderReader {
 /// Walks over the content after the header.
 class BodyWalk {
  public:
-  BodyWalk(std::string_view body, Form form, const std::string& file)
-      : rest_(body), form_(form), file_(file) {}
+  BodyWalk(const HeaderReader& header, const std::string& file)
+      : rest_(header.body()), lines_before_(header.lines()), form_(header.form()), file_(file) {}
 
   void walk(const std::vector<Element>& elements) {
+    if (form_ == Form::TEXT) {
+      if (const std::size_t mark = rest_.find('#'); mark != std::string_view::npos)
+        throw InputError(
+            file_,
+            fmt::format("line {}", lines_before_ + 1 + std::ranges::count(rest_.substr(0, mark), '\n')),
+            "'#' begins no comment in a PLY file", "remove it");
+      text_.emplace(file_, rest_, lines_before_);
+    }
     for (const Element& element : elements) {
       if (element.properties.empty() && element.count > 0)
         throw InputError(file_, "element " + element.name, "has no properties", "correct the header");
-      for (std::int64_t i = 0; i < element.count; ++i)
+      for (std::int64_t i = 0; i < element.count; ++i) {
+        if (text_ && !text_->next_line()) fail(element, i, ENDS_BEFORE);
         for (const Property& property : element.properties) skip(property, element, i);
+        if (text_ && !text_->at_line_end())
+          text_->fail(
+              fmt::format("{} {} goes on behind its {}", element.name, i, element.properties.back().name),
+              "write an element a line, with the numbers that the header announces");
+      }
     }
-    std::string_view left = rest_;
-    if (form_ == Form::TEXT ? !next_word(left).empty() : !left.empty())
-      throw InputError(file_, "", "goes on behind what its header announces", CUT_SHORT);
+    if (text_ ? text_->next_line() : !rest_.empty())
+      throw InputError(file_, "", "goes on behind what its header announces", TOO_LONG);
   }
 
  private:
+  static constexpr const char* ENDS_BEFORE = "is not there: the file ends before";
+
   void skip(const Property& property, const Element& element, std::int64_t index) {
     std::int64_t items = 1;
     if (property.count) {
@@ -199,18 +226,21 @@ class BodyWalk {
                         limit_of(Limit::POLYGON_CORNERS)),
             "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
     }
-    if (form_ == Form::TEXT) {
+    if (text_) {
       for (; items > 0; --items)
-        if (next_word(rest_).empty()) fail(element, index, "is not there: the file ends before");
+        if (property.type.is_integer)
+          text_->number<std::int64_t>(property.name.c_str());
+        else
+          text_->number<double>(property.name.c_str());
       return;
     }
     if (static_cast<std::uint64_t>(items) > rest_.size() / property.type.bytes)
-      fail(element, index, "is not there: the file ends before");
+      fail(element, index, ENDS_BEFORE);
     rest_.remove_prefix(static_cast<std::size_t>(items) * property.type.bytes);
   }
 
   std::optional<std::int64_t> read_whole_number(const ScalarType& type) {
-    if (form_ == Form::TEXT) return whole_number(next_word(rest_));
+    if (text_) return text_->number<std::int64_t>("the length of a list");
     if (rest_.size() < type.bytes) return std::nullopt;
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < type.bytes; ++i) {
@@ -229,8 +259,10 @@ class BodyWalk {
   }
 
   std::string_view rest_;
+  std::size_t lines_before_;
   Form form_;
   std::string file_;
+  std::optional<LineReader> text_;
 };
 
 }  // namespace
@@ -238,7 +270,7 @@ class BodyWalk {
 PlyContent check_ply(std::string_view bytes, const std::string& file) {
   HeaderReader header(bytes, file);
   const std::vector<Element> elements = header.read();
-  BodyWalk(header.body(), header.form(), file).walk(elements);
+  BodyWalk(header, file).walk(elements);
   return {bytes.size() - header.body().size(), header.form() == Form::TEXT};
 }
 

@@ -15,11 +15,12 @@ struct PlyContent {
 
 /// Checks that a PLY file holds what its header announces before assimp (5.2.5) reads it: that one
 /// loops for ever on a truncated header, and reads other geometry from a file with fewer faces than
-/// announced or a property of unknown type. Text and both binary forms, linear in the file.
+/// announced, a property of unknown type, or text that is no number or does not hold one element a
+/// line. Text and both binary forms, linear in the file.
 /// @param bytes  the whole file
 /// @param file   its name, for messages
-/// @throws InputError naming the header's line or the element at which the content ends; also above
-///   the limits of faces and of corners of a polygon
+/// @throws InputError naming the line or the element at which the content ends; also above the
+///   limits of faces and of corners of a polygon, and for vertices without x, y or z
 PlyContent check_ply(std::string_view bytes, const std::string& file);
 
 /// The PLY file as assimp (5.2.5) reads it right. assimp takes a line feed at the start of binary
@@ -38,8 +39,11 @@ void check_obj(std::string_view text, const std::string& file);
 /// takes for data, become blanks. All other bytes keep their places.
 std::string without_materials(std::string_view text);
 
-/// The remedy for a mesh file whose length does not fit its header.
+/// The remedy for a mesh file that is shorter than its header says.
 inline constexpr const char* CUT_SHORT =
     "the file may be cut short: get it again, or correct the counts in its header";
+
+/// The remedy for one that is longer.
+inline constexpr const char* TOO_LONG = "correct the counts in its header, or get the file again";
 
 }  // namespace lmdbench

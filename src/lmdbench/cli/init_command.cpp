@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/output_guard.h>
+#include <lmdbench/base/plain_name.h>
 #include <lmdbench/catalogue/manifest.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/progress_bar.h>
@@ -79,10 +80,11 @@ void add_init_command(CLI::App& app) {
       fmt::print(
           "edit them, then: lmdbench stability {0}\nor let the hand press it there: lmdbench run {0} --set "
           "'{1}'\n",
-          made.experiment_file.string(), made.press);
+          shell_word(made.experiment_file.string()), made.press);
     else
       fmt::print("edit them, then: lmdbench run {}\nanother path: lmdbench path generate {} --out {}\n",
-                 made.experiment_file.string(), made.specification_file.string(), made.path_file.string());
+                 shell_word(made.experiment_file.string()), shell_word(made.specification_file.string()),
+                 shell_word(made.path_file.string()));
   });
 }
 

@@ -37,7 +37,7 @@ void print_info(const MeshArguments& arguments) {
       parse_planar_tolerance(arguments.planar_tolerance, "", "--planar-tolerance");
   for (const std::string& name : arguments.names) {
     ResolvedMesh resolved = resolve_mesh(name, arguments.folder);
-    const FlatteningReport flattening = flatten(resolved.mesh, tolerance, false);
+    const FlatteningReport flattening = flatten(resolved.mesh, tolerance);
     const SelfIntersections crossings = self_intersections(resolved.mesh);
     const ValidityReport report = check_mesh(build_surface(std::move(resolved.mesh)));
     if (arguments.json) {
@@ -46,6 +46,8 @@ void print_info(const MeshArguments& arguments) {
           {"file", resolved.file ? nlohmann::ordered_json(resolved.file->string()) : nullptr},
           {"sha256", resolved.sha256}};
       line.update(to_json(report));
+      line["repairs"] = {{"collapsed_triangles", flattening.collapsed_triangles},
+                         {"flipped_triangles", flattening.flipped_triangles}};
       line["planes"] = {{"tolerance", flattening.tolerance},
                         {"planes", flattening.planes},
                         {"moved_vertices", flattening.moved_vertices},
@@ -56,8 +58,10 @@ void print_info(const MeshArguments& arguments) {
           {"complete", crossings.complete}};
       fmt::print("{}\n", json_line(line));
     } else {
-      fmt::print("mesh          {}\n{}crosses self  {}\nplanes        {}\n", printable(name), to_text(report),
-                 to_text(crossings), to_text(flattening));
+      const std::string repairs = repairs_text(flattening);
+      fmt::print("mesh          {}\n{}crosses self  {}\nplanes        {}\n{}", printable(name),
+                 to_text(report), to_text(crossings), to_text(flattening),
+                 repairs.empty() ? "" : fmt::format("repairs       {}\n", repairs));
     }
     std::fflush(stdout);
   }
@@ -149,7 +153,8 @@ void add_mesh_command(CLI::App& app) {
 
   CLI::App* info = mesh->add_subcommand(
       "info",
-      "report what a mesh is like: closed, manifold, outward, degenerate triangles, crossings with itself");
+      "report what a mesh is like, as a run takes it: closed, manifold, outward, degenerate triangles, "
+      "crossings with itself");
   info->add_option("MESH", arguments->names, "names of the manifest or mesh files")->required();
   info->add_option("--planar-tolerance", arguments->planar_tolerance,
                    "as in query: auto, off, metres, or percent of the diagonal")

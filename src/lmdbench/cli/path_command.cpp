@@ -23,6 +23,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -83,8 +84,8 @@ ProgressFunction progress_on(ProgressBar& bar, const std::string& phase, const s
   };
 }
 
-/// A frame is at the wanted gap up to this multiple of it.
-constexpr double AT_WANTED_GAP = 1.1;
+/// A frame whose gap differs from the wanted one by no more than this part of it is at that gap.
+constexpr double AT_WANTED_GAP = 0.1;
 
 struct GapNote {
   double smallest = 0.0;  ///< Fraction of the diagonal, as all here.
@@ -102,9 +103,10 @@ GapNote note_gaps(const PathInterpolator& interpolator, const PathSpec& spec, co
   const Path frames = resample(interpolator, spec.frame_rate);
   const GapMeasure measure = measure_gaps(frames, scene.distance, progress_on(bar, "check", file));
   std::size_t at_wanted_gap = 0;
-  for (std::size_t k = 0; k < frames.size(); ++k)
-    if (measure.gaps[k] <= AT_WANTED_GAP * scene.diagonal * wanted_gap(spec.gaps, frames[k].time))
-      ++at_wanted_gap;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const double wanted = scene.diagonal * wanted_gap(spec.gaps, frames[k].time - interpolator.start_time());
+    if (std::abs(measure.gaps[k] - wanted) <= AT_WANTED_GAP * wanted) ++at_wanted_gap;
+  }
   return {.smallest = measure.smallest() / scene.diagonal,
           .time_of_smallest = frames[measure.nearest_frame].time,
           .floor = spec.gap_floor,
@@ -150,7 +152,9 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
         "  a pose every {:.4g} s in the median, {:.4g} s at most; {} gaps are held, not interpolated\n",
         facts.sample_interval, facts.longest_interval, facts.gaps);
   fmt::print("  way {:.4g} m, turning {:.4g} deg\n", facts.length, facts.turning * DEGREES);
-  if (facts.pose_count > 1)
+  if (facts.pose_count > 1 && facts.frame_count < 3)
+    fmt::print("  no speeds and accelerations: it is shorter than two frames at {:g} Hz\n", rate);
+  else if (facts.pose_count > 1)
     fmt::print("  at most {:.3g} m/s, {:.3g} m/s^2, {:.3g} deg/s, {:.3g} deg/s^2\n", facts.maximum_speed,
                facts.maximum_acceleration, facts.maximum_angular_speed * DEGREES,
                facts.maximum_angular_acceleration * DEGREES);
@@ -158,7 +162,7 @@ void print_facts(const std::string& file, const PathFacts& facts, double rate,
   fmt::print("  smallest gap {:.4g} % of the diagonal, at {:.6g} s (floor {:.4g} %); {} frames intersect\n",
              100.0 * gaps->smallest, gaps->time_of_smallest, 100.0 * gaps->floor, gaps->intersecting_frames);
   fmt::print("  {} frames within {:.0f} % of the wanted gap\n", gaps->frames_at_wanted_gap,
-             100.0 * (AT_WANTED_GAP - 1.0));
+             100.0 * AT_WANTED_GAP);
 }
 
 /// Generated paths have a mark in their first line; recorded ones have none.

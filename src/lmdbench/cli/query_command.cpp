@@ -23,6 +23,7 @@
 
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,8 +58,12 @@ std::shared_ptr<const Body> load(const std::string& name, const QueryOptions& op
     spdlog::info("{}: {}", name, repairs);
   flattening.tolerance *= metres;
   flattening.largest_move *= metres;
-  if (flattening.moved_vertices > 0) spdlog::info("{}: {}", name, to_text(flattening));
-  mesh = placed(std::move(mesh), {.scale = metres});
+  if (says_something(flattening)) spdlog::info("{}: {}", name, to_text(flattening));
+  try {
+    mesh = placed(std::move(mesh), {.scale = metres});
+  } catch (const InputError& error) {
+    throw InputError(name, "--unit " + options.unit, error.what(), "");
+  }
   auto body = std::make_shared<const Body>(name, build_surface(std::move(mesh)));
   for (const std::string& finding : findings(check_mesh(body->surface())))
     spdlog::warn("{}: {}", name, finding);
@@ -74,9 +79,12 @@ Path poses_of(const QueryOptions& options) {
 /// The method's options with the values of `--option`.
 nlohmann::json chosen_options(const QueryOptions& options) {
   nlohmann::json chosen = nlohmann::json::object();
+  std::set<std::string> keys;
   for (const std::string& option : options.options) {
     if (option.find('=') == std::string::npos)
       throw UsageError("", "--option " + option, "not of the form key=value", "for example --option key=3");
+    if (const std::string key = option.substr(0, option.find('=')); !keys.insert(key).second)
+      throw UsageError("", "--option " + option, fmt::format("{} is given twice", key), "give it once");
     apply_override(chosen, "/" + option);
   }
   return complete_options(method_description(options.method, "", "--method"), chosen, "--option");

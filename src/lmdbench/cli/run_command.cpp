@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
+#include <lmdbench/base/plain_name.h>
 #include <lmdbench/cli/commands.h>
 #include <lmdbench/cli/experiment_argument.h>
 #include <lmdbench/cli/progress_bar.h>
@@ -85,7 +86,7 @@ void run_to_file(const RunOptions& options, const std::vector<std::string>& argv
     }
     const std::string page = (out.parent_path() / out.stem()).string();
     spdlog::info("wrote {}; tables, plots and a 3D view: lmdbench report {} --out {}", out.string(),
-                 out.string(), page);
+                 shell_word(out.string()), shell_word(page));
     if (!summary.broken_limits.empty())
       throw Error(
           ExitCode::CHECK_FAILED, argument.file, "/limits",

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -26,6 +27,9 @@ struct Piece {
   std::vector<std::int32_t> triangles;
   bool closed = true;
   Eigen::AlignedBox3d box;
+  double volume = 0.0, area = 0.0;
+  /// Over the 3/2 power of the area.
+  double relative_volume() const { return area > 0.0 ? volume / std::pow(area, 1.5) : 0.0; }
 };
 
 bool runs_along(const Corners& corners, std::int32_t from, std::int32_t to) {
@@ -62,6 +66,28 @@ void find_borders(std::vector<Piece>& pieces, const Adjacency& adjacency) {
   }
 }
 
+Vec3 centroid(const TriangleMesh& mesh, const Piece& piece) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0.0;
+  for (const std::int32_t t : piece.triangles) {
+    const Triangle c = mesh.triangle(t);
+    const double size = (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    sum += size * (c[0] + c[1] + c[2]) / 3.0;
+    area += size;
+  }
+  return area > 0.0 ? Vec3(sum / area) : Vec3(Vec3::Zero());
+}
+
+/// Signed volume of the cone over the piece from its centroid, and its area.
+void measure_piece(const TriangleMesh& mesh, Piece& piece) {
+  const Vec3 centre = centroid(mesh, piece);
+  for (const std::int32_t t : piece.triangles) {
+    const Triangle c = mesh.triangle(t);
+    piece.volume += (c[0] - centre).dot((c[1] - centre).cross(c[2] - centre)) / 6.0;
+    piece.area += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+  }
+}
+
 /// Makes the triangles of every piece agree, as far as possible.
 std::vector<Piece> agreeing_pieces(TriangleMesh& mesh, const Adjacency& adjacency) {
   std::vector<Piece> pieces;
@@ -93,61 +119,68 @@ std::vector<Piece> agreeing_pieces(TriangleMesh& mesh, const Adjacency& adjacenc
     pieces.push_back(std::move(piece));
   }
   find_borders(pieces, adjacency);
+  for (Piece& piece : pieces) measure_piece(mesh, piece);
   return pieces;
 }
 
-Vec3 centroid(const TriangleMesh& mesh, const Piece& piece) {
-  Vec3 sum = Vec3::Zero();
-  double area = 0.0;
-  for (const std::int32_t t : piece.triangles) {
-    const Triangle c = mesh.triangle(t);
-    const double size = (c[1] - c[0]).cross(c[2] - c[0]).norm();
-    sum += size * (c[0] + c[1] + c[2]) / 3.0;
-    area += size;
-  }
-  return area > 0.0 ? Vec3(sum / area) : Vec3(Vec3::Zero());
-}
-
-/// Signed volume of the cone over the piece from its centroid, over the 3/2 power of its area.
-double relative_volume(const TriangleMesh& mesh, const Piece& piece) {
-  const Vec3 centre = centroid(mesh, piece);
-  double volume = 0.0;
-  double area = 0.0;
-  for (const std::int32_t t : piece.triangles) {
-    const Triangle c = mesh.triangle(t);
-    volume += (c[0] - centre).dot((c[1] - centre).cross(c[2] - centre)) / 6.0;
-    area += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
-  }
-  return area > 0.0 ? volume / std::pow(area, 1.5) : 0.0;
-}
-
-/// A point inside a closed piece, whichever way it is turned, near one of its triangles. A corner
-/// may lie on another piece that it touches; this does not.
-std::optional<Vec3> point_inside(const TriangleMesh& mesh, const Piece& piece) {
+/// Points inside a closed piece, whichever way it is turned, near some of its triangles. A corner
+/// may lie on another piece that it touches; these do not.
+std::vector<Vec3> points_inside(const TriangleMesh& mesh, const Piece& piece) {
   constexpr double DEPTH = 1e-6;         // in diagonals
-  constexpr std::size_t LOOKED_AT = 64;  // triangles of a piece that is thinner
+  constexpr std::size_t LOOKED_AT = 64;  // triangles
+  const NearWinding own(mesh, piece.triangles);
   const std::size_t step = (piece.triangles.size() + LOOKED_AT - 1) / LOOKED_AT;
+  std::vector<Vec3> points;
   for (std::size_t i = 0; i < piece.triangles.size(); i += step) {
     const Triangle c = mesh.triangle(piece.triangles[i]);
     for (const double side : {-1.0, 1.0}) {
       const Vec3 point =
           (c[0] + c[1] + c[2]) / 3.0 + side * DEPTH * piece.box.diagonal().norm() * triangle_normal(c);
-      if (std::abs(winding_number(point, mesh, piece.triangles)) > 0.5) return point;
+      if (std::abs(own.at(point)) <= 0.5) continue;
+      points.push_back(point);
+      break;
     }
   }
-  return std::nullopt;
+  return points;
 }
 
-/// Whether an odd number of other closed pieces enclose this one. Pieces may touch.
-bool is_cavity(const TriangleMesh& mesh, const std::vector<Piece>& pieces, std::size_t which) {
-  const std::optional<Vec3> point = point_inside(mesh, pieces[which]);
-  bool odd = false;
-  for (std::size_t i = 0; point && i < pieces.size(); ++i)
-    if (i != which && pieces[i].closed && pieces[i].box.contains(pieces[which].box) &&
-        std::abs(winding_number(*point, mesh, pieces[i].triangles)) > 0.5)
-      odd = !odd;
-  return odd;
-}
+/// Tells cavities. Pieces may touch; one that sticks out of another is not enclosed by it, nor is a
+/// copy.
+class Enclosures {
+ public:
+  Enclosures(const TriangleMesh& mesh, const std::vector<Piece>& pieces) : mesh_(mesh) {
+    for (const Piece& piece : pieces)
+      if (piece.closed) shells_.push_back({&piece, piece.box, {}});
+    std::ranges::stable_sort(shells_, std::greater(),
+                             [](const Shell& s) { return std::abs(s.piece->volume); });
+  }
+
+  /// Whether an odd number of other closed pieces enclose this one.
+  bool is_cavity(const Piece& piece) {
+    constexpr double LARGER = 1.0 + 1e-9;
+    std::vector<Vec3> points;
+    bool odd = false;
+    for (Shell& shell : shells_) {
+      if (!(std::abs(shell.piece->volume) > LARGER * std::abs(piece.volume))) break;
+      if (!shell.box.contains(piece.box)) continue;
+      if (points.empty()) points = points_inside(mesh_, piece);
+      if (points.empty()) return false;
+      if (!shell.winding) shell.winding.emplace(mesh_, shell.piece->triangles);
+      if (std::ranges::all_of(points, [&](const Vec3& p) { return std::abs(shell.winding->at(p)) > 0.5; }))
+        odd = !odd;
+    }
+    return odd;
+  }
+
+ private:
+  struct Shell {
+    const Piece* piece;
+    Eigen::AlignedBox3d box;
+    std::optional<NearWinding> winding;
+  };
+  const TriangleMesh& mesh_;
+  std::vector<Shell> shells_;  ///< Closed pieces, the largest first.
+};
 
 }  // namespace
 
@@ -163,17 +196,21 @@ OrientationChoice parse_orientation(const std::string& text, const std::string& 
 }
 
 OrientationReport orient_outward(TriangleMesh& mesh) {
+  return orient_outward(mesh, build_adjacency(mesh));
+}
+
+OrientationReport orient_outward(TriangleMesh& mesh, const Adjacency& adjacency) {
   const std::vector<Corners> before = mesh.triangles;
-  const Adjacency adjacency = build_adjacency(mesh);
-  std::vector<Piece> pieces = agreeing_pieces(mesh, adjacency);
+  const std::vector<Piece> pieces = agreeing_pieces(mesh, adjacency);
   OrientationReport report;
   report.choice = OrientationChoice::OUTWARD;
   report.pieces = static_cast<std::int64_t>(pieces.size());
   std::vector<bool> wrong(pieces.size(), false);
+  Enclosures enclosures(mesh, pieces);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const double volume = relative_volume(mesh, pieces[i]);
+    const double volume = pieces[i].relative_volume();
     if (pieces[i].closed)
-      wrong[i] = volume != 0.0 && (volume < 0.0) != is_cavity(mesh, pieces, i);
+      wrong[i] = std::abs(volume) > ZERO_VOLUME && (volume < 0.0) != enclosures.is_cavity(pieces[i]);
     else if (std::abs(volume) < OPEN_VOLUME)
       ++report.pieces_undecided;
     else

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <lmdbench/mesh/adjacency.h>
 #include <lmdbench/mesh/triangle_mesh.h>
 
 #include <cstdint>
@@ -39,11 +40,18 @@ struct OrientationReport {
 ///  1. Triangles that share an edge with one other are made to agree, in the way that turns fewer.
 ///  2. A closed piece is turned to enclose a positive volume; a negative one where an odd number of
 ///     other closed pieces enclose it, because a cavity's outer side is its inside. Pieces
-///     may touch; solids that share a whole face are not told apart.
+///     may touch; solids that share a whole face are not told apart. One without volume
+///     (ZERO_VOLUME), as a sheet with both sides, is left.
 ///  3. An open piece is turned where the cone from its centroid over it has a clearly negative
 ///     volume (OPEN_VOLUME). A smaller one, as of a sheet, decides nothing; the report counts it.
 /// The order of triangles and their first corners stay.
 OrientationReport orient_outward(TriangleMesh& mesh);
+
+/// The same, where the mesh's adjacency is known.
+OrientationReport orient_outward(TriangleMesh& mesh, const Adjacency& adjacency);
+
+/// Volumes over the 3/2 power of the area up to this are rounding.
+inline constexpr double ZERO_VOLUME = 1e-13;
 
 /// Least volume over the 3/2 power of the area (a ball: 0.094) of an open piece with an outer side.
 inline constexpr double OPEN_VOLUME = 0.005;

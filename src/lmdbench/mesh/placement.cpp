@@ -20,7 +20,7 @@ void refuse_extreme_size(const TriangleMesh& mesh, const std::string& name) {
           fmt::format("has a coordinate above {:g}: products of such lengths overflow", LARGEST_COORDINATE),
           REMEDY);
   const double diagonal = bounding_box_diagonal(mesh);
-  if (diagonal > 0.0 && diagonal < SMALLEST_DIAGONAL)
+  if (diagonal < SMALLEST_DIAGONAL)
     throw InputError(name, "",
                      fmt::format("is {:g} m large, less than {:g}: products of such lengths vanish", diagonal,
                                  SMALLEST_DIAGONAL),

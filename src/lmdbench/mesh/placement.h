@@ -13,7 +13,7 @@
 namespace lmdbench {
 
 /// Refuses a mesh whose products of coordinates overflow or vanish in double precision
-/// (`LARGEST_COORDINATE`, `SMALLEST_DIAGONAL`). `check_mesh` and scaling see to one without extent.
+/// (`LARGEST_COORDINATE`, `SMALLEST_DIAGONAL`), one without extent too.
 /// @param name  of the mesh or file, for the message
 /// @throws InputError
 void refuse_extreme_size(const TriangleMesh& mesh, const std::string& name);

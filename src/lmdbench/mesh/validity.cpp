@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/mesh/orientation_choice.h>
 #include <lmdbench/mesh/validity.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -104,9 +106,14 @@ void measure(const Surface& surface, ValidityReport& report) {
     report.worst_aspect = std::max(report.worst_aspect, longest * longest / double_area);
     volume += (corners[0] - centre).dot((corners[1] - centre).cross(corners[2] - centre)) / 6.0;
   }
-  if (report.closed && report.consistently_oriented) {
-    report.volume = volume;
-    report.outward = volume > 0.0;
+  if (report.closed && report.consistently_oriented) report.volume = volume;
+  if (report.consistently_oriented) {
+    TriangleMesh turned = surface.mesh;
+    report.inward_triangles = orient_outward(turned, surface.adjacency).turned_triangles;
+    if (report.inward_triangles > 0)
+      report.outward = false;
+    else if (report.closed && std::abs(volume) > ZERO_VOLUME * std::pow(report.area, 1.5))
+      report.outward = true;
   }
   report.diagonal = bounding_box_diagonal(surface.mesh);
   report.mean_edge_length = mean_edge_length(surface.mesh);

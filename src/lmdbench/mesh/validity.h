@@ -30,11 +30,16 @@ struct ValidityReport {
   std::int64_t degenerate_triangles = 0;   ///< Triangles without area (ZERO_AREA_TOLERANCE).
   std::int64_t duplicate_triangles = 0;    ///< With an earlier one's vertices, in any order.
 
+  /// What `orient_outward` would turn; 0 where edges are misoriented, which tell as much.
+  std::int64_t inward_triangles = 0;
+
   bool closed = false;                 ///< No boundary edge.
   bool manifold = false;               ///< No non-manifold edge or vertex.
   bool consistently_oriented = false;  ///< No misoriented edge.
-  std::optional<bool> outward;         ///< Whether `volume` is positive; unset where that is.
-  std::optional<double> volume;        ///< Enclosed, signed; only if closed, consistently oriented.
+  /// Whether no triangle is inward; unset where edges are misoriented, and for an open mesh or one
+  /// without volume of which none is.
+  std::optional<bool> outward;
+  std::optional<double> volume;  ///< Enclosed, signed; only if closed, consistently oriented.
   std::optional<std::int64_t>
       genus;  ///< Sum over the components; only where closed, manifold, consistently oriented.
 

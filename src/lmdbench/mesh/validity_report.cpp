@@ -36,9 +36,9 @@ std::vector<std::string> findings(const ValidityReport& report) {
                                     counted(report.misoriented_edges, "edge", "edges"), TURN_REMEDY));
   if (report.outward == false)
     sentences.push_back(
-        fmt::format("inside out: the triangles' normals point into the solid (volume {:.4g}), so that "
-                    "nothing outside of it is a contact in truth ({})",
-                    *report.volume, TURN_REMEDY));
+        fmt::format("inside out: the normals of {} of {} triangles point into the solid, so that nothing "
+                    "outside of it is a contact of theirs in truth ({})",
+                    report.inward_triangles, report.triangles, TURN_REMEDY));
   if (!report.closed)
     sentences.push_back(fmt::format("open: {} in {}",
                                     counted(report.boundary_edges, "boundary edge", "boundary edges"),
@@ -67,6 +67,7 @@ nlohmann::ordered_json to_json(const ValidityReport& report) {
           {"consistently_oriented", report.consistently_oriented},
           {"misoriented_edges", report.misoriented_edges},
           {"outward", json_or_null(report.outward)},
+          {"inward_triangles", report.inward_triangles},
           {"genus", json_or_null(report.genus)},
           {"degenerate_triangles", report.degenerate_triangles},
           {"duplicate_triangles", report.duplicate_triangles},

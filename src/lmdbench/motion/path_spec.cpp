@@ -124,7 +124,8 @@ std::string path_spec_text(const PathSpec& spec) {
 }
 
 PathSpec read_path_spec(const std::filesystem::path& file) {
-  const InputKind kind{.what = "path specification", .most_bytes = Limit::JSON_BYTES};
+  const InputKind kind{
+      .what = "path specification", .code = ExitCode::USAGE, .most_bytes = Limit::JSON_BYTES};
   return parse_path_spec(read_input_file(file, kind).bytes, file.string());
 }
 

@@ -99,6 +99,7 @@ void normalize_beyond_rounding(Eigen::Quaterniond& rotation) {
 
 Path parse_tum(std::string_view text, const std::string& name) {
   Path path;
+  text = without_byte_order_mark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));

@@ -17,8 +17,10 @@ namespace lmdbench {
 namespace {
 
 /// @param X_WF moves its vertices into the world; unset: they stay in the mesh's own frame
-MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
-                   const std::optional<Pose>& X_WF) {
+/// @param place  of what is read, for the caller's messages
+MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment, const std::optional<Pose>& X_WF,
+                   std::string& place) {
+  place = object.place + "/mesh";
   const ResolvedMesh resolved =
       is_mesh_name(object.mesh)
           ? resolve_mesh(object.mesh, experiment.mesh_folder)
@@ -38,10 +40,14 @@ MeshNote load_mesh(const ObjectChoice& object, const Experiment& experiment,
   note.flattening.tolerance *= scale;
   note.flattening.largest_move *= scale;
   mesh = placed(std::move(mesh), object.placement);
-  if (object.deformation)
+  if (object.deformation) {
+    place = object.deformation->place;
+    if (!object.deformation->generator) place += object.deformation->files.empty() ? "/folder" : "/files";
     note.vertices = std::make_shared<const FrameVertices>(
         *object.deformation, DeformingMesh{resolved.mesh, object.placement, mesh, X_WF},
         experiment.frame_rate_hz);
+    place = object.place + "/mesh";
+  }
   const double diagonal = bounding_box_diagonal(mesh);
   if (X_WF)
     for (Vec3& vertex : mesh.vertices) vertex = RigidTransform(*X_WF).point(vertex);
@@ -63,12 +69,12 @@ MeshNote load_object(const Experiment& experiment, std::size_t index, const std:
     note.instances.clear();
     note.first_mover = note.movers = 0;
   } else {
+    std::string place;
     const bool in_world = object.stands() && !stands_in_own_frame(experiment, index);
     try {
-      note = load_mesh(object, experiment, in_world ? std::optional(object.pose) : std::nullopt);
+      note = load_mesh(object, experiment, in_world ? std::optional(object.pose) : std::nullopt, place);
     } catch (const InputError& error) {
-      throw InputError(experiment.file.string(), object.place + "/mesh",
-                       fmt::format("cannot be used: {}", error.what()), "");
+      throw InputError(experiment.file.string(), place, fmt::format("cannot be used: {}", error.what()), "");
     }
   }
   note.role = object.role;

@@ -15,6 +15,7 @@
 #include <lmdbench/prepare/prepare.h>
 #include <lmdbench/prepare/resting_pose.h>
 #include <lmdbench/prepare/scene_look.h>
+#include <lmdbench/shape/flatten.h>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -122,9 +123,21 @@ OrientationChoice choose_orientation(const GivenMesh& part, const std::optional<
   TriangleMesh turned = part.mesh.mesh;
   choices.push_back(
       {part.place + "/orient", "outward",
-       (report.outward == false ? "the file is inside out: " : "its triangles disagree on the outer side: ") +
+       (report.outward == false ? "inside out in the file: " : "its triangles disagree on the outer side: ") +
            to_text(orient_outward(turned))});
   return OrientationChoice::OUTWARD;
+}
+
+/// Before a path is searched for.
+void refuse_unusable(const std::filesystem::path& folder) {
+  for (std::filesystem::path part = folder; !part.empty(); part = part.parent_path()) {
+    std::error_code none;
+    const std::filesystem::file_status status = std::filesystem::status(part, none);
+    if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
+      throw EnvironmentError(folder.string(), "", fmt::format("cannot be made: {} is a file", part.string()),
+                             "name another folder with --out");
+    if (std::filesystem::exists(status) || part == part.parent_path()) return;
+  }
 }
 
 /// Whether the meshes stay at their files' places.
@@ -152,17 +165,19 @@ bool choose_places(const GivenMesh& moving, const GivenMesh& fixed, const InitCh
   return keep;
 }
 
-/// Flaws that no method can mend, with remedies.
+/// Flaws that no method can mend, with remedies, of the mesh as a run takes it.
 void tell_flaws(const GivenMesh& part, std::vector<std::string>& warnings) {
   std::vector<std::string> flaws;
-  const ValidityReport report = check_mesh(build_surface(part.mesh.mesh));
+  TriangleMesh mesh = part.mesh.mesh;
+  flatten(mesh);
+  const ValidityReport report = check_mesh(build_surface(mesh));
   if (!report.closed)
     flaws.push_back(fmt::format("{} boundary edges in {} holes: what is behind them is outside, too",
                                 report.boundary_edges, report.boundary_loops));
   if (!report.manifold)
     flaws.push_back(fmt::format("{} edges and vertices where more than two triangles or surfaces meet",
                                 report.non_manifold_edges + report.non_manifold_vertices));
-  const SelfIntersections crossings = self_intersections(part.mesh.mesh);
+  const SelfIntersections crossings = self_intersections(mesh);
   if (crossings.pairs > 0)
     flaws.push_back(to_text(crossings) + ": parts of its surface are inside of it and push all the same");
   for (const std::string& flaw : flaws)
@@ -175,7 +190,7 @@ void tell_flaws(const GivenMesh& part, std::vector<std::string>& warnings) {
 OrderedJson mesh_entry(const GivenMesh& part, bool keep_place, const InitChoices& chosen,
                        const std::filesystem::path& folder, std::vector<DefaultNote>& choices) {
   OrderedJson entry{{"mesh", seen_from(folder, part.name)}};
-  if (part.metres != 1.0) entry["scale"] = part.metres;
+  if (part.metres != 1.0 || chosen.unit) entry["scale"] = part.metres;
   choices.push_back(
       {part.place + "/scale", fmt::format("{:g}", part.metres),
        fmt::format("{}; {:.4g} of them are {:.4g} m", part.why, part.diagonal, part.metres * part.diagonal)});
@@ -227,6 +242,7 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                              const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
                              const Progress& progress, const InitChoices& chosen) {
   NewExperiment result;
+  refuse_unusable(folder);
   for (const std::string& mesh : {moving, fixed})
     if (!is_utf8(mesh))
       throw UsageError(printable(mesh), "", "is no UTF-8 name, which an experiment cannot hold",
@@ -307,7 +323,7 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
 
 void write_new_experiment(const NewExperiment& experiment) {
   for (const auto& file : {experiment.experiment_file, experiment.specification_file, experiment.path_file})
-    if (std::filesystem::exists(file) &&
+    if (std::filesystem::exists(std::filesystem::symlink_status(file)) &&  // a link to nothing, too
         !(file == experiment.specification_file && experiment.specification_text.empty()))
       throw UsageError(file.string(), "", "is there already, and may have been edited",
                        "remove it, or name another folder with --out");

@@ -20,7 +20,7 @@ struct InitChoices {
   /// (`metres_of_format`), else millimetres where a mesh spans more than
   /// LARGEST_PLAUSIBLE_DIAGONAL, else metres. Meshes of the manifest are in metres.
   std::optional<std::string> unit = std::nullopt;
-  /// Unset: outward for a mesh that is inside out or inconsistent, else keep.
+  /// Unset: outward for a mesh of which that turns triangles, else keep.
   std::optional<OrientationChoice> orientation = std::nullopt;
   /// Whether both meshes stay at their files' places, or are centred. Unset: they stay where two
   /// files of one unit have them next to or in each other, as parts of one assembly.
@@ -50,7 +50,8 @@ struct NewExperiment {
 /// @param folder        of the new files, to which names of mesh files are relative
 /// @param mesh_folder   of the manifest
 /// @throws InputError for an unusable mesh, or meshes that no path brings together; UsageError for
-///         sizes more than UNLIKELY_SIZE_RATIO apart without a given unit
+///         sizes more than UNLIKELY_SIZE_RATIO apart without a given unit; EnvironmentError where
+///         the folder cannot be one
 NewExperiment new_experiment(const std::string& moving, const std::string& fixed,
                              const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
                              const Progress& progress = {}, const InitChoices& chosen = {});

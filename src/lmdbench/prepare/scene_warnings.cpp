@@ -71,7 +71,7 @@ std::vector<std::string> mesh_warnings(const Experiment& experiment, const std::
     if (differs_from_manifest(note, experiment.mesh_folder))
       warn("its file is not the manifest's: results on it do not compare frame by frame with others'");
     if (const std::string repairs = repairs_text(note.flattening); !repairs.empty()) warn(repairs);
-    if (note.flattening.moved_vertices > 0) warn(to_text(note.flattening));
+    if (says_something(note.flattening)) warn(to_text(note.flattening));
     if (note.orientation.choice == OrientationChoice::OUTWARD) warn(to_text(note.orientation));
     for (const std::string& finding : findings(note.report)) warn(finding);
   }

@@ -146,7 +146,8 @@ void take_out_walls(const Surface& surface, double tolerance, std::vector<Planar
 }
 
 /// Faces of four and more vertices that chance does not explain.
-std::vector<Constraint> find_constraints(const Surface& surface, double tolerance) {
+/// @param of_chance  the number of others
+std::vector<Constraint> find_constraints(const Surface& surface, double tolerance, std::int64_t& of_chance) {
   std::vector<PlanarFace> faces = planar_faces(surface, tolerance);
   take_out_walls(surface, tolerance, faces);
   std::map<std::size_t, std::size_t> count_of_spare;  // faces by vertices more than three
@@ -161,7 +162,10 @@ std::vector<Constraint> find_constraints(const Surface& surface, double toleranc
   for (PlanarFace& face : faces) {
     if (face.vertices.size() <= 3) continue;
     const std::size_t spare = face.vertices.size() - 3;
-    if (!(static_cast<double>(count_of_spare[spare]) > EVIDENCE * by_chance(spare))) continue;
+    if (!(static_cast<double>(count_of_spare[spare]) > EVIDENCE * by_chance(spare))) {
+      ++of_chance;
+      continue;
+    }
     constraints.push_back({face.plane, std::move(face.vertices), true});
   }
   return constraints;
@@ -347,7 +351,15 @@ FlatteningReport flatten(TriangleMesh& mesh, const PlanarTolerance& choice, bool
   if (report.tolerance <= flat) return report;
   // Faces grow, join and are given up in the order of coordinates, not of the file.
   const OrderedMesh ordered = in_order_of_coordinates(mesh);
-  std::vector<Constraint> constraints = find_constraints(build_surface(ordered.mesh), report.tolerance);
+  std::int64_t of_chance = 0;
+  std::vector<Constraint> constraints =
+      find_constraints(build_surface(ordered.mesh), report.tolerance, of_chance);
+  if (choice.kind != PlanarTolerance::Kind::AUTO) {
+    report.faces_of_chance = of_chance;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (least_altitude(mesh.triangle(static_cast<std::int32_t>(t))) <= LEAST_ALTITUDE * report.tolerance)
+        ++report.triangles_of_noise;
+  }
   CoplanarJoining(ordered.mesh, constraints, report.tolerance).run();
   const std::vector<Vec3> moved = put_back(ordered.mesh, constraints, report.tolerance, flat);
   for (std::size_t i = 0; i < moved.size(); ++i)
@@ -381,14 +393,26 @@ std::string repairs_text(const FlatteningReport& report) {
 
 std::string to_text(const FlatteningReport& report) {
   if (!(report.tolerance > 0.0)) return "taken as they are (planar tolerance 0)";
+  std::string left;
+  if (report.faces_of_chance > 0)
+    left = fmt::format("; {} face{} within it of a plane {} left, as chance explains as many",
+                       report.faces_of_chance, report.faces_of_chance == 1 ? "" : "s",
+                       report.faces_of_chance == 1 ? "is" : "are");
+  if (report.triangles_of_noise > 0 && report.moved_vertices == 0)
+    left += fmt::format("; {} triangles are lower than {:g} tolerances, so that their planes are noise",
+                        report.triangles_of_noise, LEAST_ALTITUDE);
+  if (!left.empty())
+    left +=
+        fmt::format(" (remedy: {} planar tolerance)", report.moved_vertices > 0 ? "another" : "a smaller");
   if (report.moved_vertices == 0)
-    return fmt::format("no vertex had to be put back into a plane (tolerance {:.3g})", report.tolerance);
+    return fmt::format("no vertex {} put back into a plane (tolerance {:.3g}){}",
+                       left.empty() ? "had to be" : "was", report.tolerance, left);
   // A vertex on several planes moves farther than its distance from each.
   return fmt::format(
       "{} vertices put back into {} planes that they were within {:.3g} of; the farthest moved by {:.3g} "
-      "(allowed: {:.3g})",
+      "(allowed: {:.3g}){}",
       report.moved_vertices, report.planes, report.tolerance, report.largest_move,
-      LARGEST_MOVE * report.tolerance);
+      LARGEST_MOVE * report.tolerance, left);
 }
 
 }  // namespace lmdbench

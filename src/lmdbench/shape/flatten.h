@@ -18,6 +18,9 @@ struct FlatteningReport {
   std::int64_t planes = 0;               ///< Planes that vertices were put back into.
   std::int64_t moved_vertices = 0;       ///< Vertices whose coordinates changed.
   double largest_move = 0.0;             ///< Distance that the farthest of them went.
+  /// Of a given tolerance: faces within it of a plane that are left to chance, and triangles lower
+  /// than a few tolerances, whose planes are noise.
+  std::int64_t faces_of_chance = 0, triangles_of_noise = 0;
 };
 
 /// Puts the vertices of a rounded mesh's planar faces back into their planes: those on two planes
@@ -50,6 +53,10 @@ inline constexpr double LARGEST_MOVE = 4.0;
 
 /// What was done to triangles, a clause for people; empty if nothing.
 std::string repairs_text(const FlatteningReport& report);
+/// Whether vertices moved, or a given tolerance leaves what it might not be meant to.
+inline bool says_something(const FlatteningReport& report) {
+  return report.moved_vertices + report.faces_of_chance + report.triangles_of_noise > 0;
+}
 /// What was done to vertices, a clause for people.
 std::string to_text(const FlatteningReport& report);
 
