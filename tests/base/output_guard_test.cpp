@@ -50,6 +50,8 @@ TEST_F(OutputGuard, AFolderIsNoFile) {
   refuse_no_folder(folder_.path(), "--out");
   EXPECT_THAT(message_of<UsageError>([&] { refuse_no_folder(folder_.write("notes", "mine"), "--out"); }),
               HasSubstr("is no folder"));
+  EXPECT_THAT(message_of<EnvironmentError>([&] { refuse_no_folder(folder_ / "notes/new/one", "--out"); }),
+              HasSubstr("notes is a file (remedy: name another folder with --out)"));
 }
 
 TEST_F(OutputGuard, RefusesInputsByAnyName) {

@@ -22,10 +22,18 @@ void refuse_standard_output(const std::filesystem::path& file, const std::string
 void refuse_no_folder(const std::filesystem::path& folder, const std::string& option) {
   if (folder.empty())
     throw UsageError("", option, "names no folder", "name one: it is made where there is none");
-  std::error_code error;
-  if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
-    throw UsageError(folder.string(), option, "is no folder",
-                     "name a folder: it is made where there is none");
+  for (std::filesystem::path part = folder; !part.empty(); part = part.parent_path()) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(part, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_directory(status)) {
+      if (part == folder)
+        throw UsageError(folder.string(), option, "is no folder",
+                         "name a folder: it is made where there is none");
+      throw EnvironmentError(folder.string(), "", fmt::format("cannot be made: {} is a file", part.string()),
+                             fmt::format("name another folder with {}", option));
+    }
+    if (std::filesystem::exists(status) || part == part.parent_path()) return;
+  }
 }
 
 void refuse_unsafe_output(const std::filesystem::path& file, const OutputKind& kind,

@@ -22,7 +22,8 @@ struct OutputKind {
 void refuse_standard_output(const std::filesystem::path& file, const std::string& what,
                             const std::string& option);
 
-/// @throws UsageError where something else than a folder stands in its place
+/// @throws UsageError where something else than a folder stands in its place; EnvironmentError
+/// where it stands above it, so that no folder can be made
 void refuse_no_folder(const std::filesystem::path& folder, const std::string& option);
 
 /// Makes sure that writing a file replaces nothing but an earlier output of the same kind: the name

@@ -216,15 +216,11 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   // (truncated files), and its clean-up steps would drop or reorder triangles.
   const aiScene* scene = importer.ReadFile(name, 0);
   // It tells a limit of memory as an error of the file.
-  if (scene == nullptr &&
-      std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
-    throw std::bad_alloc();
+  const std::string error = importer.GetErrorString();
+  const auto says = [&](const char* words) { return error.find(words) != std::string::npos; };
+  if (scene == nullptr && says("bad_alloc")) throw std::bad_alloc();
   if (scene == nullptr)
-    throw InputError(
-        file, "", importer.GetErrorString(),
-        std::string_view(importer.GetErrorString()).find("open referenced file") != std::string_view::npos
-            ? GLTF_REMEDY
-            : FORMAT_REMEDY);
+    throw InputError(file, "", error, says("open referenced file") ? GLTF_REMEDY : FORMAT_REMEDY);
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);
   SceneMerger(*scene, file).check_indices();
   if (SceneMerger(*scene, file).has_polygons()) {

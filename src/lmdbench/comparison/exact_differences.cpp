@@ -65,9 +65,6 @@ std::optional<std::int64_t> frame_of_row(const ResultReader& file, const std::st
 
 namespace {
 
-constexpr const char* ABSENT_HERE = "absent";
-constexpr const char* PRESENT_HERE = "present";
-
 /// Times differ between runs. Samples are marked by their name, numbers of the summary by an
 /// attribute (results/README.md), which files of earlier versions lack.
 bool is_time(const ResultReader& file, const std::string& group, const std::string& name) {
@@ -131,14 +128,6 @@ template <typename Value>
 nlohmann::json row_value(std::span<const Value> row, bool scalar) {
   if (scalar) return row.front();
   return std::vector<Value>(row.begin(), row.end());
-}
-
-/// The experiment, for what was probed and recorded; no object where the file does not tell.
-nlohmann::json kept_of(const ResultReader& file) {
-  constexpr const char* EXPERIMENT = "/provenance/experiment";
-  const std::vector<std::string> texts =
-      file.has(EXPERIMENT) ? file.texts(EXPERIMENT) : std::vector<std::string>{};
-  return nlohmann::json::parse(texts.empty() ? "{}" : texts.front(), nullptr, false);
 }
 
 /// Null where the experiment has none.
@@ -205,7 +194,7 @@ class DatasetPair {
   std::optional<Difference> compare(const ExactOptions& options, bool other_frames) const {
     if (!candidate_.has(path_)) {
       if (counts_nothing()) return std::nullopt;
-      return whole(PRESENT_HERE, ABSENT_HERE);
+      return whole(PRESENT, ABSENT);
     }
     if (is_frame_list(dataset_)) return compare_frames(other_frames);
     const std::vector<std::size_t> shape = base_.shape(path_), other = candidate_.shape(path_);
@@ -239,12 +228,8 @@ class DatasetPair {
     std::ranges::set_symmetric_difference(base, candidate, std::back_inserter(alone));
     if (alone.empty()) return whole("in this order", "in another order");
     const bool in_base = std::ranges::binary_search(base, alone.front());
-    return Difference{method_,
-                      name(),
-                      alone.front(),
-                      in_base ? PRESENT_HERE : ABSENT_HERE,
-                      in_base ? ABSENT_HERE : PRESENT_HERE,
-                      alone.size()};
+    return Difference{
+        method_, name(), alone.front(), in_base ? PRESENT : ABSENT, in_base ? ABSENT : PRESENT, alone.size()};
   }
 
   /// The dataset with the frames of this one's rows: a table's, or those of searches.
@@ -363,8 +348,8 @@ std::string first_method(const ResultReader& file) {
 struct Sides {
   const ResultReader& base;
   const ResultReader& candidate;
-  nlohmann::json base_experiment = kept_of(base);
-  nlohmann::json candidate_experiment = kept_of(candidate);
+  nlohmann::json base_experiment = recorded_experiment(base);
+  nlohmann::json candidate_experiment = recorded_experiment(candidate);
   bool same_steps = same_true_steps(base, candidate);
   bool same_methods = base.groups("/methods") == candidate.groups("/methods");
   bool same_first_method = first_method(base) == first_method(candidate);
@@ -419,7 +404,7 @@ void compare_root(const Sides& sides, const ExactOptions& options, std::vector<D
       compare_group(sides, "", group, options, differences);
     else if (sides.base.has(group) &&
              !left_out(sides.candidate_experiment, deciding_key(group.substr(1) + "/", false)))
-      differences.push_back({"", group, std::nullopt, PRESENT_HERE, ABSENT_HERE, 0});
+      differences.push_back({"", group, std::nullopt, PRESENT, ABSENT, 0});
   }
   std::vector<std::string> of_scene;
   std::ranges::copy_if(SCENE_RESULTS, std::back_inserter(of_scene),
@@ -435,12 +420,18 @@ void compare_hash(const ResultReader& base, const ResultReader& candidate, const
              b = candidate.text_attribute(group, "result_hash");
   if (a == b) return;
   const auto shown = [](const std::optional<std::string>& hash) {
-    return nlohmann::json(hash.value_or(ABSENT_HERE));
+    return nlohmann::json(hash.value_or(ABSENT));
   };
   differences.push_back({method, "result_hash", std::nullopt, shown(a), shown(b), 0});
 }
 
 }  // namespace
+
+nlohmann::json recorded_experiment(const ResultReader& file) {
+  const std::vector<std::string> texts =
+      file.has(EXPERIMENT) ? file.texts(EXPERIMENT) : std::vector<std::string>{};
+  return nlohmann::json::parse(texts.empty() ? "" : texts.front(), nullptr, false);
+}
 
 bool same_true_steps(const ResultReader& base, const ResultReader& candidate) {
   const auto of_every_frame = [](const ResultReader& file) {
@@ -456,7 +447,7 @@ std::vector<Difference> exact_differences(const ResultReader& base, const Result
   for (const std::string& method : base.groups("/methods")) {
     const std::string group = "/methods/" + method;
     if (!candidate.has(group)) {
-      differences.push_back({method, "", std::nullopt, PRESENT_HERE, ABSENT_HERE, 0});
+      differences.push_back({method, "", std::nullopt, PRESENT, ABSENT, 0});
       continue;
     }
     std::vector<Difference> of_method;
@@ -481,7 +472,7 @@ std::vector<Difference> group_differences(const ResultReader& base, const Result
 
 std::vector<std::string> additions(const ResultReader& base, const ResultReader& candidate) {
   std::vector<std::string> names;
-  const nlohmann::json experiment = kept_of(base);
+  const nlohmann::json experiment = recorded_experiment(base);
   for (const std::string& method : candidate.groups("/methods")) {
     const std::string group = "/methods/" + method;
     if (!base.has(group)) {

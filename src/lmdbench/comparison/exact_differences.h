@@ -26,6 +26,15 @@ struct Difference {
   std::size_t rows = 0;  ///< Rows of the dataset that differ, with this one; 0: no rows
 };
 
+/// In place of a value: what one side alone has.
+inline constexpr const char* PRESENT = "present";
+inline constexpr const char* ABSENT = "absent";
+/// The dataset with the experiment as JSON.
+inline constexpr const char* EXPERIMENT = "/provenance/experiment";
+
+/// The experiment of a result, resolved; no object where the file does not tell.
+nlohmann::json recorded_experiment(const ResultReader& file);
+
 /// The order of reports: data of no method, then by frame, so that the first entry is nearest to
 /// the cause; whole datasets last.
 inline bool reported_before(const Difference& a, const Difference& b) {

@@ -16,9 +16,6 @@
 namespace lmdbench {
 namespace {
 
-constexpr const char* EXPERIMENT = "/provenance/experiment";
-constexpr const char* ABSENT = "absent";
-
 std::map<std::string, std::string> input_hashes(const ResultReader& file) {
   const std::vector<std::string> roles = file.texts("/provenance/inputs/role");
   const std::vector<std::string> hashes = file.texts("/provenance/inputs/sha256");
@@ -28,8 +25,7 @@ std::map<std::string, std::string> input_hashes(const ResultReader& file) {
 }
 
 nlohmann::json experiment_of(const ResultReader& file) {
-  const std::vector<std::string> texts = file.texts(EXPERIMENT);
-  nlohmann::json experiment = nlohmann::json::parse(texts.empty() ? "" : texts.front(), nullptr, false);
+  nlohmann::json experiment = recorded_experiment(file);
   if (!experiment.is_object())
     throw InputError(file.file().string(), EXPERIMENT, "is no JSON object",
                      "make the file again with lmdbench run");
@@ -186,7 +182,7 @@ void compare_scene(const ResultReader& base, const ResultReader& candidate, cons
     if (candidate.has(path))
       compare_scene(base, candidate, path, differences);
     else
-      differences.push_back({"", path, std::nullopt, "present", ABSENT, 0});
+      differences.push_back({"", path, std::nullopt, PRESENT, ABSENT, 0});
   }
 }
 

@@ -128,18 +128,6 @@ OrientationChoice choose_orientation(const GivenMesh& part, const std::optional<
   return OrientationChoice::OUTWARD;
 }
 
-/// Before a path is searched for.
-void refuse_unusable(const std::filesystem::path& folder) {
-  for (std::filesystem::path part = folder; !part.empty(); part = part.parent_path()) {
-    std::error_code none;
-    const std::filesystem::file_status status = std::filesystem::status(part, none);
-    if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
-      throw EnvironmentError(folder.string(), "", fmt::format("cannot be made: {} is a file", part.string()),
-                             "name another folder with --out");
-    if (std::filesystem::exists(status) || part == part.parent_path()) return;
-  }
-}
-
 /// Whether the meshes stay at their files' places.
 bool choose_places(const GivenMesh& moving, const GivenMesh& fixed, const InitChoices& chosen,
                    std::vector<DefaultNote>& choices) {
@@ -242,7 +230,6 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                              const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
                              const Progress& progress, const InitChoices& chosen) {
   NewExperiment result;
-  refuse_unusable(folder);
   for (const std::string& mesh : {moving, fixed})
     if (!is_utf8(mesh))
       throw UsageError(printable(mesh), "", "is no UTF-8 name, which an experiment cannot hold",

@@ -50,8 +50,7 @@ struct NewExperiment {
 /// @param folder        of the new files, to which names of mesh files are relative
 /// @param mesh_folder   of the manifest
 /// @throws InputError for an unusable mesh, or meshes that no path brings together; UsageError for
-///         sizes more than UNLIKELY_SIZE_RATIO apart without a given unit; EnvironmentError where
-///         the folder cannot be one
+///         sizes more than UNLIKELY_SIZE_RATIO apart without a given unit
 NewExperiment new_experiment(const std::string& moving, const std::string& fixed,
                              const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
                              const Progress& progress = {}, const InitChoices& chosen = {});

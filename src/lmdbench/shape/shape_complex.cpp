@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/contract.h>
 #include <lmdbench/base/parallel.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/tolerance.h>
@@ -143,6 +144,20 @@ bool ShapeComplex::is_plain_chain(const Surface& surface, std::int32_t chain) co
          });
 }
 
+bool ShapeComplex::runs_along(const Surface& surface, std::int32_t chain, std::int32_t triangle) const {
+  const auto way = [&](std::int32_t from, std::int32_t to) -> Vec3 {
+    return surface.mesh.vertices[static_cast<std::size_t>(to)] -
+           surface.mesh.vertices[static_cast<std::size_t>(from)];
+  };
+  const auto t = static_cast<std::size_t>(triangle);
+  const auto& corners = surface.mesh.triangles[t];
+  const auto& sides = surface.adjacency.triangle_edges[t];
+  const auto k = static_cast<std::size_t>(std::ranges::find(sides, lead_of_chain(chain)) - sides.begin());
+  LMDBENCH_EXPECTS(k < 3, "a triangle that is not beside the chain's lead");
+  const auto& ends = ends_of_chain(chain);
+  return way(corners[k], corners[(k + 1) % 3]).dot(way(ends[0], ends[1])) > 0.0;
+}
+
 Vec3 ShapeComplex::outer_side(const Surface& surface, const FeatureId& feature) const {
   const FeatureId lead = lead_of(feature);
   if (!surface.is_one_fan(lead)) return Vec3::Zero();
@@ -230,10 +245,9 @@ void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain
   for (const std::int32_t t : surface.adjacency.edge_triangles[edge]) {
     const std::int32_t region = region_of(t);
     const RegionShape* shape = region >= 0 ? shapes.of_region(region) : nullptr;
-    const auto& corners = surface.mesh.triangles[static_cast<std::size_t>(t)];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (corners[k] == edge_ends[0] || corners[k] == edge_ends[1]) continue;
-      const Vec3 to_corner = position(corners[k]) - p;
+    for (const std::int32_t corner : surface.mesh.triangles[static_cast<std::size_t>(t)]) {
+      if (corner == edge_ends[0] || corner == edge_ends[1]) continue;
+      const Vec3 to_corner = position(corner) - p;
       const Vec3 across = to_corner - to_corner.dot(along) * along;
       if (shape == nullptr) {
         wings_.push_back(across);
@@ -241,9 +255,8 @@ void ShapeComplex::append_chain_wings(const Surface& surface, std::int32_t chain
       }
       // Of the region's plane, because a small triangle's is inaccurate: to the left of the side,
       // as the triangle's corner may be on the wrong one.
-      const double run = (position(corners[(k + 2) % 3]) - position(corners[(k + 1) % 3])).dot(along);
       const Vec3& n = regions.planes[static_cast<std::size_t>(region)].normal;
-      const Vec3 inwards = n.cross(run < 0.0 ? Vec3(-along) : along).normalized();
+      const Vec3 inwards = n.cross(runs_along(surface, chain, t) ? along : Vec3(-along)).normalized();
       wings_.push_back(std::max(across.norm(), shape->depth_along(p, inwards)) * inwards);
     }
   }

@@ -69,6 +69,9 @@ class ShapeComplex {
   bool is_lead_of_several(const FeatureId& feature) const;
   /// Whether a chain is one edge between regions of one triangle each.
   bool is_plain_chain(const Surface& surface, std::int32_t chain) const;
+  /// Whether the side of a triangle at a chain's lead runs from the chain's first end to the other:
+  /// a triangle is to the left of its sides.
+  bool runs_along(const Surface& surface, std::int32_t chain, std::int32_t triangle) const;
   /// The outer side at a corner or chain, a unit vector in the mesh's frame; zero without one. Of a
   /// chain it is the sum of its regions' normals, as triangles there may be needles turned over; of
   /// a corner the pseudo-normal.

@@ -103,24 +103,11 @@ void SignedFeatures::add_chain(const Surface& surface, const ShapeComplex& shape
   const std::int32_t edge = shape.lead_of_chain(index);
   const auto triangles = surface.adjacency.edge_triangles[edge];
   if (shape.outer_side(surface, {FeatureKind::EDGE, index}).isZero(0.0) || triangles.size() != 2) return;
-  const auto& ends = shape.ends_of_chain(index);
-  const auto at = [&](std::int32_t v) -> const Vec3& {
-    return surface.mesh.vertices[static_cast<std::size_t>(v)];
-  };
-  const Vec3 along = at(ends[1]) - at(ends[0]);
   Chain chain;
   for (std::size_t k = 0; k < 2; ++k) {
     const std::int32_t t = triangles[k];
     if (shape.region_of(t) < 0) return;
-    const auto& corners_of = surface.mesh.triangles[static_cast<std::size_t>(t)];
-    const auto& sides = surface.adjacency.triangle_edges[static_cast<std::size_t>(t)];
-    // A triangle is to the left of its sides.
-    for (std::size_t c = 0; c < 3; ++c)
-      if (sides[c] == edge) {
-        const double run = (at(corners_of[(c + 1) % 3]) - at(corners_of[c])).dot(along);
-        chain.sides[k] = {shape.region_of(t), run > 0.0 ? 1.0 : -1.0};
-      }
-    if (chain.sides[k].region < 0) return;
+    chain.sides[k] = {shape.region_of(t), shape.runs_along(surface, index, t) ? 1.0 : -1.0};
   }
   chain.has_index = chain.sides[0].region != chain.sides[1].region;
   chains[static_cast<std::size_t>(index)] = chain;
