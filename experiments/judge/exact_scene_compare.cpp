@@ -21,6 +21,9 @@ namespace {
 
 using Triangles = std::vector<std::int32_t>;
 
+/// Of points; of segments and areas the tilt at which exact meshes are parallel (DEFINITION.md).
+constexpr double SINE = 1e-9, TILT = 5e-8;
+
 double rounding_at(const Vec3& p, const Vec3& q) {
   return ROUNDINGS * std::numeric_limits<double>::epsilon() *
          std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
@@ -34,6 +37,11 @@ bool same_features(const auto& a, const auto& b) {
 Triangles triangles_at(const WorldBody& body, const FeatureId& feature) {
   const auto triangles = body.surface().incident_triangles(feature);
   return {triangles.begin(), triangles.end()};
+}
+
+/// A segment or an area, by its names.
+bool is_extended(const Lmd& lmd) {
+  return lmd.feature_moving.kind != FeatureKind::VERTEX && lmd.feature_fixed.kind != FeatureKind::VERTEX;
 }
 
 bool have_common(const Triangles& a, const Triangles& b) {
@@ -75,8 +83,9 @@ std::unordered_set<std::int32_t> level_part(const WorldBody& body, const Feature
   return part;
 }
 
-/// Those of both meshes at an exact LMD; made when first asked for.
+/// Those of both meshes at an exact LMD, for the last tilt; made when first asked for.
 struct LevelParts {
+  double tilt = 0.0;
   std::optional<std::unordered_set<std::int32_t>> moving, fixed;
 };
 
@@ -100,29 +109,33 @@ class BodyPair {
     return {triangles_at(moving_, on_moving), triangles_at(fixed_, on_fixed)};
   }
 
-  /// Whether the LMD is where the exact one is, or both are of one plateau: distance vectors and
-  /// planes of contact are equal up to the tolerance, and once more for each contact that is
-  /// extended, and both meshes go on between them within that.
+  /// Whether the LMD is where the exact one is, or both are of one plateau: their distances, and
+  /// their distance vectors or how far they are across from each other, are equal up to the
+  /// tolerance, and once more for each contact that is extended, and both meshes go on between them
+  /// within that.
   /// @param meet  whether their cells do
   bool is_part_of(const ExactLmd& exact, const Lmd& found, bool meet, LevelParts& parts) const {
     const double rounding = rounding_at(exact.point_moving, exact.point_fixed);
     const Vec3 d = exact.point_fixed - exact.point_moving;
     const Vec3 difference = found.point_fixed - found.point_moving - d;
     const double allowed = 3.0 * known_ + largest_tilt_ * exact.distance + rounding;
-    // On common triangles a minimum and a segment or area level to the tolerance may be tilted.
+    // Edges that cross beside a segment or area level to the tolerance may be nearer by that, with
+    // another direction.
     const double longer = (difference + d).norm() - exact.distance;
-    if (meet && is_extended(found) && std::abs(longer) <= allowed &&
-        difference.squaredNorm() <= 4.0 * allowed * exact.distance)
-      return true;
+    const bool level = is_extended(found) && std::abs(longer) <= allowed &&
+                       difference.squaredNorm() <= 4.0 * allowed * exact.distance;
+    if (meet && level) return true;
     const Vec3 apart = found.point_moving - exact.point_moving;
-    const double tilt = allowed / exact.distance;  // of the two planes of contact
-    if (!(difference.norm() <= allowed &&
+    const double turn = level ? difference.norm() / exact.distance : 0.0;
+    const double tilt = turn + allowed / exact.distance;  // of the two planes of contact
+    if (!((level || difference.norm() <= allowed) &&
           std::abs(apart.dot(d)) <= exact.distance * (allowed + tilt * apart.norm())))
       return false;
     if (meet && apart.norm() <= allowed) return true;
     if (are_copies(moving_, exact.feature_moving, found.feature_moving) ||
         are_copies(fixed_, exact.feature_fixed, found.feature_fixed))
       return false;
+    if (parts.tilt != tilt) parts = {tilt, {}, {}};
     const auto goes_on = [&](auto& part, const WorldBody& body, const FeatureId& from, const FeatureId& to,
                              const Vec3& p) {
       if (!part) part = level_part(body, from, p, d / exact.distance, allowed, tilt);
@@ -182,11 +195,6 @@ class BodyPair {
   }
   static bool touch(const WorldBody& body, const FeatureId& a, const FeatureId& b) {
     return have_common(corners_of(body, a), corners_of(body, b)) && !are_copies(body, a, b);
-  }
-
-  /// A segment or an area, by its names.
-  static bool is_extended(const Lmd& lmd) {
-    return lmd.feature_moving.kind != FeatureKind::VERTEX && lmd.feature_fixed.kind != FeatureKind::VERTEX;
   }
 
   WorldBody moving_, fixed_;
@@ -295,14 +303,14 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
 }
 
 bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd) {
-  constexpr double SINE = 1e-9;
-  const auto admits = [](const WorldBody& body, const FeatureId& feature, const Vec3& p_W, const Vec3& d_W) {
+  const double sine = is_extended(lmd) ? TILT : SINE;
+  const auto admits = [sine](const WorldBody& body, const FeatureId& feature, const Vec3& p_W, const Vec3& d_W) {
     const double rounding =
         ROUNDINGS * std::numeric_limits<double>::epsilon() * (p_W.cwiseAbs().maxCoeff() + d_W.norm());
     for (const std::int32_t triangle : body.surface().incident_triangles(feature)) {
       for (const std::int32_t corner : body.corners(triangle)) {
         const Vec3 to_corner = body.vertex(corner) - p_W;
-        if (!(d_W.dot(to_corner) <= (SINE * d_W.norm() + rounding) * to_corner.norm())) return false;
+        if (!(d_W.dot(to_corner) <= (sine * d_W.norm() + rounding) * to_corner.norm())) return false;
       }
     }
     return true;

@@ -199,6 +199,19 @@ TEST(ExactLmds, OfGeneratedPartsEveryLmdIsKnownAndRequired) {
   EXPECT_GT(touching, 0);
 }
 
+TEST(ExactLmds, EdgesThatCrossOverAPlateauAreOfItAlsoFromOtherTriangles) {
+  // Sheets of many triangles, level to 1e-8 rad: edges of their holes cross 1e-10 nearer than the
+  // middle of a rim over a face, on triangles that have nothing in common, and 1e-6 rad across.
+  const exact::GeneratedPose pose =
+      exact::make_generated_pose("parts", "perforated sheet on perforated sheet", 20261130, 705);
+  std::vector<exact::Judgement> rows = exact::empty_judgements("sheets");
+  exact::judge_pose(pose.scene, pose.X_WM, exact::judged_methods(pose.scene), pose.text, rows);
+  for (const exact::Judgement& row : rows) {
+    EXPECT_GT(row.found, 5) << row.method;
+    for (const std::string& failure : row.failures) ADD_FAILURE() << failure;
+  }
+}
+
 TEST(ExactLmds, APartOfAPlateauIsKnownUpToTheToleranceOfTheMeshes) {
   // A rod over a box, tilted so little that its gap changes by less than the meshes are known to
   // (1e-9): the one LMD is the middle of the overlap, the exact ones are its lower corners.
@@ -214,6 +227,10 @@ TEST(ExactLmds, APartOfAPlateauIsKnownUpToTheToleranceOfTheMeshes) {
     return agreement.missed.size() + agreement.untrue.size() + agreement.misplaced.size();
   };
   EXPECT_EQ(unknown(), 0u);
+  EXPECT_TRUE(exact::within_tolerance(scene, pose, found[0]));
+  Pose tilted = pose;
+  tilted.rotation = Eigen::AngleAxisd(2e-7, Vec3::UnitY());
+  EXPECT_FALSE(exact::within_tolerance(scene, tilted, found[0])) << "parallel to no tolerance";
   const Vec3 further = 1e-8 * found[0].direction;
   found[0].point_fixed += further;
   EXPECT_GE(unknown(), 2u) << "farther than the tolerance explains";
