@@ -304,7 +304,8 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
 
 bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd) {
   const double sine = is_extended(lmd) ? TILT : SINE;
-  const auto admits = [sine](const WorldBody& body, const FeatureId& feature, const Vec3& p_W, const Vec3& d_W) {
+  const auto admits = [sine](const WorldBody& body, const FeatureId& feature, const Vec3& p_W,
+                             const Vec3& d_W) {
     const double rounding =
         ROUNDINGS * std::numeric_limits<double>::epsilon() * (p_W.cwiseAbs().maxCoeff() + d_W.norm());
     for (const std::int32_t triangle : body.surface().incident_triangles(feature)) {

@@ -29,11 +29,13 @@ Contact middle_of_polygons(const ContactPointers& pieces) {
     whole.point_moving += piece->measure * piece->point_moving;
     whole.point_fixed += piece->measure * piece->point_fixed;
     whole.direction += piece->measure * piece->direction;
-    whole.distance += piece->measure * piece->distance;
+    // Pieces may cross by the tolerance.
+    const double sign = (piece->point_fixed - piece->point_moving).dot(piece->direction);
+    whole.distance += piece->measure * std::copysign(piece->distance, sign);
   }
   whole.point_moving /= total;
   whole.point_fixed /= total;
-  whole.distance /= total;
+  whole.distance = std::abs(whole.distance / total);
   whole.direction.normalize();
   return whole;
 }

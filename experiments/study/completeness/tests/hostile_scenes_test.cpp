@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/lmd/well_formed.h>
 #include <lmdbench/mesh/validity.h>
 #include <lmdbench/methods/certified/certified.h>
 #include <lmdbench/methods/exhaustive/exhaustive.h>
@@ -49,6 +50,21 @@ TEST(HostileScenes, DependOnTheirArgumentsAlone) {
     EXPECT_EQ(one.poses.back().translation, same.poses.back().translation);
     EXPECT_NE(one.label, other.label);
     EXPECT_EQ(one.poses.size(), is_without_motion(motion) ? HOSTILE_POSES_A_SCENE : HOSTILE_FRAMES_A_SCENE);
+  }
+}
+
+TEST(HostileScenes, PiecesThatCrossByTheToleranceHaveOneMiddle) {
+  // Thin plates in floats, 1e-7 apart: of an LMD's pieces some cross by less than the tolerance.
+  for (const std::size_t index : {6337u, 8969u}) {
+    const GeneratedScene laid = make_hostile_scene(Motion::LAID, 20261130, index);
+    Exhaustive exhaustive(laid.scene);
+    std::size_t lmds = 0;
+    for (const Pose& pose : laid.poses) {
+      const LmdSet set = lmds_at(exhaustive, pose);
+      EXPECT_TRUE(is_well_formed(set, laid.scene)) << laid.label;
+      lmds += set.size();
+    }
+    EXPECT_GT(lmds, 20u);
   }
 }
 
