@@ -3,6 +3,7 @@
 #include <lmdbench/catalogue/shapes.h>
 #include <lmdbench/catalogue/sleeve.h>
 #include <lmdbench/decision/join_contacts.h>
+#include <lmdbench/decision/represent_contacts.h>
 #include <lmdbench/geometry/point_triangle.h>
 #include <lmdbench/geometry/segment_distance.h>
 #include <lmdbench/mesh/flaws.h>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory_resource>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -78,6 +80,27 @@ TEST(JoinContacts, ABoxOnATableHasOneLmdHoweverBothAreCut) {
           EXPECT_NEAR((q - Vec3(0.3, -0.2, 0.0)).norm(), 0.0, 1e-13);
         }
     }
+}
+
+TEST(JoinContacts, TheMiddleOfPiecesOfWhichOneCrossesIsAsFarAsItsPoints) {
+  // By the tolerance, as thin plates in floats do.
+  ShapeScene scene(merged(box(), translated(box(), Vec3(1.5, 0.0, 0.0))), square_table(8.0));
+  const ShapePair pair = scene.at(moved(0.2, 0.1, 1e-3));
+  ContactSet set = scene.contacts(pair);
+  std::pmr::monotonic_buffer_resource memory;
+  ContactPlaces places(pair, set, memory);
+  ContactPointers pieces(&memory);
+  Contact* last = nullptr;
+  for (Contact& contact : set.contacts)
+    if (contact.dimension == 2) pieces.push_back(last = &contact);
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_NEAR(represent_contacts(pair, places, pieces).contact().distance, 1e-3, 1e-15);
+  Contact& crosses = *last;
+  std::swap(crosses.point_moving, crosses.point_fixed);
+  crosses.measure *= 3.0;
+  const Representative middle = represent_contacts(pair, places, pieces);
+  EXPECT_NEAR(middle.contact().distance, 5e-4, 1e-15);
+  EXPECT_NEAR((middle.contact().point_fixed - middle.contact().point_moving).norm(), 5e-4, 1e-15);
 }
 
 void expect_any_order_gives_the_same(ShapeScene& scene, const Pose& pose) {
