@@ -21,9 +21,6 @@ namespace {
 
 using Triangles = std::vector<std::int32_t>;
 
-/// Of points; of segments and areas the tilt at which exact meshes are parallel (DEFINITION.md).
-constexpr double SINE = 1e-9, TILT = 5e-8;
-
 double rounding_at(const Vec3& p, const Vec3& q) {
   return ROUNDINGS * std::numeric_limits<double>::epsilon() *
          std::max(p.cwiseAbs().maxCoeff(), q.cwiseAbs().maxCoeff());
@@ -303,6 +300,8 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
 }
 
 bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd) {
+  // Of points; of segments and areas the tilt at which exact meshes are parallel (DEFINITION.md).
+  constexpr double SINE = 1e-9, TILT = 5e-8;
   const double sine = is_extended(lmd) ? TILT : SINE;
   const auto admits = [sine](const WorldBody& body, const FeatureId& feature, const Vec3& p_W,
                              const Vec3& d_W) {

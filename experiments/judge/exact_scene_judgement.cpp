@@ -141,8 +141,8 @@ cutoff, or a triangle has no area. Sharing a plane: reported LMDs in one plane o
 plateau that tolerances tore apart, or doubled. Doubled: of the name or at the place of another one, or of its contact:
 exact LMDs that hang together over common triangles. True by tolerance: reported LMDs that meet the condition of their
 own triangles but for a sine of 1e-9 (segments and areas: 5e-8) and rounding: features that are nearly parallel, also
-where another part of the same mesh touches it without common vertices, and triangles that are segments. Misplaced: with
-a point off its feature, or an intersection whose named triangles are apart. Where on a plateau its LMD lies is not
+where another part of the same mesh touches them without common vertices, and triangles that are segments. Misplaced:
+with a point off its feature, or an intersection whose named triangles are apart. Where on a plateau its LMD lies is not
 asked. Wrong contacts: frames in which exact intersection tests of all triangles and the method differ; how many
 intersections there are is not asked.
 )";

@@ -26,6 +26,17 @@ class ExactDifferences : public ::testing::Test {
                                       const ExactOptions& options = {}) {
     return exact_differences(open(base, "base.h5"), open(candidate, "candidate.h5"), options);
   }
+  std::vector<Difference> settings(const SyntheticResult& base, const SyntheticResult& candidate) {
+    return experiment_differences(open(base, "base.h5"), open(candidate, "candidate.h5"));
+  }
+  /// Of results that differ in one text.
+  std::size_t differing_settings(std::string SyntheticResult::*text, const std::string& base,
+                                 const std::string& candidate) {
+    SyntheticResult a, b;
+    a.*text = base;
+    b.*text = candidate;
+    return settings(a, b).size();
+  }
   ResultReader open(const SyntheticResult& result, const std::string& name) {
     return ResultReader(result.write(scratch_ / name));
   }
@@ -258,7 +269,7 @@ TEST_F(ExactDifferences, OrderOfMethodsDoesNotMatter) {
   SyntheticResult candidate;
   candidate.methods = {"certified", "original"};
   EXPECT_THAT(differences({}, candidate), IsEmpty());
-  EXPECT_THAT(experiment_differences(open({}, "a.h5"), open(candidate, "b.h5")), IsEmpty());
+  EXPECT_THAT(settings({}, candidate), IsEmpty());
 }
 
 TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
@@ -266,7 +277,7 @@ TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
   force.cutoff = 0.02;
   mesh.moving_hash = "bb";
   more.repetitions = 4;
-  const std::vector<Difference> found = experiment_differences(open({}, "a.h5"), open(force, "b.h5"));
+  const std::vector<Difference> found = settings({}, force);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].dataset, "/provenance/experiment:/force/cutoff_m");
   EXPECT_EQ(found[0].base, 0.01);
@@ -274,17 +285,17 @@ TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
   const std::vector<Difference> scene = scene_differences(open({}, "a.h5"), open(force, "b.h5"));
   ASSERT_EQ(scene.size(), 1U);
   EXPECT_EQ(scene[0].dataset, "/scene:cutoff_m");
-  const std::vector<Difference> input = experiment_differences(open({}, "a.h5"), open(mesh, "b.h5"));
+  const std::vector<Difference> input = settings({}, mesh);
   ASSERT_EQ(input.size(), 1U);
   EXPECT_EQ(input[0].dataset, "/provenance/inputs/sha256:mesh:moving");
-  EXPECT_THAT(experiment_differences(open({}, "a.h5"), open(more, "b.h5")), IsEmpty());
+  EXPECT_THAT(settings({}, more), IsEmpty());
 }
 
 TEST_F(ExactDifferences, SettingsOfOneSideAloneAreNamedWhereTheyHaveNoDefault) {
   const auto found = [&](const std::string& patch) {
     SyntheticResult other;
     other.patch = patch;
-    return experiment_differences(open({}, "a.h5"), open(other, "b.h5"));
+    return settings({}, other);
   };
   const std::vector<Difference> frames = found(R"({"frames": 5})");
   ASSERT_EQ(frames.size(), 1U);
@@ -301,18 +312,14 @@ TEST_F(ExactDifferences, SettingsOfOneSideAloneAreNamedWhereTheyHaveNoDefault) {
 }
 
 TEST_F(ExactDifferences, BlocksOfFramesAreASetting) {
-  SyntheticResult few, many;
-  few.patch = R"({"driver": {"block_frames": 10}})";
-  many.patch = R"({"driver": {"block_frames": 100}})";
-  EXPECT_EQ(experiment_differences(open(few, "a.h5"), open(many, "b.h5")).size(), 1U);
+  EXPECT_EQ(differing_settings(&SyntheticResult::patch, R"({"driver": {"block_frames": 10}})",
+                               R"({"driver": {"block_frames": 100}})"),
+            1U);
 }
 
 TEST_F(ExactDifferences, BothFormsOfASceneAreOne) {
   const auto count = [&](const std::string& base, const std::string& candidate) {
-    SyntheticResult a, b;
-    a.patch = base;
-    b.patch = candidate;
-    return experiment_differences(open(a, "a.h5"), open(b, "b.h5")).size();
+    return differing_settings(&SyntheticResult::patch, base, candidate);
   };
   const std::string by_kind =
       R"({"moving": {"mesh": "m"}, "fixed": [{"mesh": "f", "pose": 1}], "path": {"file": "p", "gap": 1},
@@ -338,9 +345,7 @@ TEST_F(ExactDifferences, NamesAndPlacesOfMeshFilesAreNoDifference) {
   other = elsewhere;
   other.moving_hash = "bb";
   built_in.moving = R"({"mesh":"torus"})";
-  const auto count = [&](const SyntheticResult& candidate) {
-    return experiment_differences(open(base, "a.h5"), open(candidate, "b.h5")).size();
-  };
+  const auto count = [&](const SyntheticResult& candidate) { return settings(base, candidate).size(); };
   EXPECT_EQ(count(elsewhere), 0U);
   EXPECT_EQ(count(other), 1U);
   EXPECT_EQ(count(built_in), 1U) << "no file: its name is the mesh";
@@ -348,10 +353,7 @@ TEST_F(ExactDifferences, NamesAndPlacesOfMeshFilesAreNoDifference) {
 
 TEST_F(ExactDifferences, ListsAreComparedEntryByEntry) {
   const auto count = [&](const std::string& base, const std::string& candidate) {
-    SyntheticResult a, b;
-    a.moving = base;
-    b.moving = candidate;
-    return experiment_differences(open(a, "a.h5"), open(b, "b.h5")).size();
+    return differing_settings(&SyntheticResult::moving, base, candidate);
   };
   EXPECT_EQ(count(R"({"of":[{"a":1},{"a":2}]})", R"({"of":[{"a":1},{"a":2,"new":3}]})"), 0U);
   EXPECT_EQ(count(R"({"of":[{"a":1},{"a":2}]})", R"({"of":[{"a":1},{"a":3}]})"), 1U);
@@ -360,7 +362,7 @@ TEST_F(ExactDifferences, ListsAreComparedEntryByEntry) {
 
 TEST_F(ExactDifferences, AMeshThatDeformsIsAnotherThanARigidOne) {
   const auto count = [&](const SyntheticResult& base, const SyntheticResult& candidate) {
-    return experiment_differences(open(base, "a.h5"), open(candidate, "b.h5")).size();
+    return settings(base, candidate).size();
   };
   SyntheticResult rigid, bent, bent_more, read, read_elsewhere, read_other;
   rigid.moving = R"({"mesh":"m"})";
