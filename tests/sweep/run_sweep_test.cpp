@@ -47,7 +47,7 @@ TEST_F(RunSweep, PutsErrorBesideTimeForEveryPoint) {
   EXPECT_LT(force[2], 1e-14) << "truth adds up the same LMDs, to rounding";
   EXPECT_LT(recall[1], recall[0]) << "a search every 40 frames leaves older sets than one every 5";
   EXPECT_GT(force[1], force[0]);
-  for (const double force : file.doubles("/points/rendered_force_median_n")) EXPECT_GT(force, 0.0);
+  for (const double rendered : file.doubles("/points/rendered_force_median_n")) EXPECT_GT(rendered, 0.0);
   for (const double share : file.doubles("/points/processor_share")) EXPECT_GT(share, 0.0);
   EXPECT_THAT(file.doubles("/points/truth_checked_frames"), ElementsAre(4, 4, 4));
   EXPECT_THAT(file.doubles("/points/truth_wrong_frames"), ElementsAre(0, 0, 0));
