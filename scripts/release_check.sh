@@ -23,9 +23,9 @@ cd "$ROOT" || exit 1
 mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd`, which all methods need, has a third of the time
 PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
   shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
-# What searches in generated scenes include,
-SEARCHED=(CMakeLists.txt src experiments/{judge,support,study/completeness}
-  experiments/study/{CMakeLists.txt,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
+# What searches in generated scenes include beside their study or judge,
+SEARCHED=(CMakeLists.txt src experiments/support)
+STUDIES=(experiments/study/{CMakeLists.txt,completeness,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
 # but rooms and files that make no set: commands, drivers, numbers, files of results, interfaces,
 # what is told of meshes; and what reads meshes and paths, which those searches make themselves.
 ABOVE_METHODS=(src/lmdbench/{catalogue/'*_file.*',cli,comparison,drivers,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
@@ -60,13 +60,12 @@ all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; 
 # commit_of PART: the last one that changed what the part may read.
 commit_of() {
   local -a read=(.) unread=(':!results' ':!*.md')
+  local -a above=("${ABOVE_METHODS[@]/#/:!}") tests=(':!*_test.cpp' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
   case $1 in
-  hostile | parts | solids | shapes | metamorphic | rest | generated)
-    read=("${SEARCHED[@]}") unread+=("${ABOVE_METHODS[@]/#/:!}" ':!*_test.cpp')
-    ;;
-  completeness | fuzz-* | reference)
-    unread+=(':!*_test.cpp' ':!scripts/mutants.txt')
-    ;;
+  hostile | parts | solids | shapes | metamorphic) read=("${SEARCHED[@]}" "${STUDIES[@]}") unread+=("${above[@]}" "${tests[@]}") ;;
+  rest | generated) read=("${SEARCHED[@]}" experiments/judge) unread+=("${above[@]}" "${tests[@]}") ;;
+  completeness | fuzz-*) unread+=(':!experiments/judge' "${tests[@]}") ;;
+  reference) unread+=("${tests[@]}") ;;
   esac
   git log -1 --format=%h -- "${read[@]}" "${unread[@]}"
 }

@@ -70,9 +70,10 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
                                   const std::vector<ExactLmd>& exact);
 
 /// Whether a reported LMD meets the first-order condition of its own triangles up to rounding and a
-/// sine of 1e-9, of segments and areas up to 5e-8, the tilt at which exact meshes are parallel. So
-/// do nearly parallel features, also where another part of the same mesh touches them without
-/// common vertices, and segments made of triangles without area.
+/// sine of 1e-9, of segments and areas up to the tilt at which the meshes are parallel (5e-8 of
+/// exact ones, more in single precision). So do nearly parallel features, also where another part
+/// of the same mesh touches them without common vertices, and segments made of triangles without
+/// area.
 bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd);
 
 /// Whether a triangle of the moving mesh and one of a fixed mesh share a point.

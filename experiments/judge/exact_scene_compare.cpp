@@ -86,21 +86,31 @@ struct LevelParts {
   std::optional<std::unordered_set<std::int32_t>> moving, fixed;
 };
 
-/// The moving mesh and a fixed one, and what the definition grants to contacts of both
-/// (DEFINITION.md, "In floating-point numbers"; its numbers stand here again).
+/// What the definition grants to contacts of two meshes ("In floating-point numbers"; its numbers
+/// stand here again).
+struct Tolerance {
+  double known = 0.0;         ///< metres
+  double largest_tilt = 0.0;  ///< The sine up to which features are parallel.
+};
+
+Tolerance tolerance_of(const Surface& moving, const Surface& fixed) {
+  double known = 0.0, extents = 0.0;
+  for (const Surface* surface : {&moving, &fixed}) {
+    double extent = 0.0;
+    for (const Vec3& v : surface->mesh.vertices) extent = std::max(extent, v.cwiseAbs().maxCoeff());
+    known += std::max(surface->mesh.planar_tolerance, 1e-9 * extent);
+    extents += extent;
+  }
+  return {known, std::min(5e-5, 50.0 * known / extents)};
+}
+
+/// The moving mesh and a fixed one.
 class BodyPair {
  public:
   BodyPair(const Surface& moving, const Surface& fixed, const Pose& X_WM)
-      : moving_(moving, RigidTransform(X_WM)), fixed_(fixed, RigidTransform()) {
-    double extents = 0.0;
-    for (const Surface* surface : {&moving, &fixed}) {
-      double extent = 0.0;
-      for (const Vec3& v : surface->mesh.vertices) extent = std::max(extent, v.cwiseAbs().maxCoeff());
-      known_ += std::max(surface->mesh.planar_tolerance, 1e-9 * extent);
-      extents += extent;
-    }
-    largest_tilt_ = std::min(5e-5, 50.0 * known_ / extents);
-  }
+      : moving_(moving, RigidTransform(X_WM)),
+        fixed_(fixed, RigidTransform()),
+        tolerance_(tolerance_of(moving, fixed)) {}
 
   Cells cells_of(const FeatureId& on_moving, const FeatureId& on_fixed) const {
     return {triangles_at(moving_, on_moving), triangles_at(fixed_, on_fixed)};
@@ -115,7 +125,7 @@ class BodyPair {
     const double rounding = rounding_at(exact.point_moving, exact.point_fixed);
     const Vec3 d = exact.point_fixed - exact.point_moving;
     const Vec3 difference = found.point_fixed - found.point_moving - d;
-    const double allowed = 3.0 * known_ + largest_tilt_ * exact.distance + rounding;
+    const double allowed = 3.0 * tolerance_.known + tolerance_.largest_tilt * exact.distance + rounding;
     // Edges that cross beside a segment or area level to the tolerance may be nearer by that, with
     // another direction.
     const double longer = (difference + d).norm() - exact.distance;
@@ -153,9 +163,9 @@ class BodyPair {
       const auto corners = corners_of(body, feature);
       Triangle t;
       for (std::size_t i = 0; i < 3; ++i) t[i] = body.vertex(corners[std::min(i, corners.size() - 1)]);
-      if (testing::exact_distance(p, t) <= known_ + rounding) return true;
-      return of_faces &&
-             std::abs((t[1] - t[0]).cross(t[2] - t[0]).normalized().dot(p - t[0])) <= known_ + rounding;
+      if (testing::exact_distance(p, t) <= tolerance_.known + rounding) return true;
+      return of_faces && std::abs((t[1] - t[0]).cross(t[2] - t[0]).normalized().dot(p - t[0])) <=
+                             tolerance_.known + rounding;
     };
     return std::abs((lmd.point_fixed - lmd.point_moving).norm() - lmd.distance) <= rounding &&
            holds(moving_, lmd.feature_moving, lmd.point_moving) &&
@@ -195,7 +205,7 @@ class BodyPair {
   }
 
   WorldBody moving_, fixed_;
-  double known_ = 0.0, largest_tilt_ = 0.0;  ///< ContactTolerance says what they are.
+  Tolerance tolerance_;
 };
 
 }  // namespace
@@ -300,9 +310,9 @@ ExactAgreement compare_with_exact(const Scene& scene, const Pose& X_WM, const Lm
 }
 
 bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd) {
-  // Of points; of segments and areas the tilt at which exact meshes are parallel (DEFINITION.md).
-  constexpr double SINE = 1e-9, TILT = 5e-8;
-  const double sine = is_extended(lmd) ? TILT : SINE;
+  const Surface& fixed_surface = scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface();
+  const double sine =
+      is_extended(lmd) ? tolerance_of(scene.moving->surface(), fixed_surface).largest_tilt : 1e-9;
   const auto admits = [sine](const WorldBody& body, const FeatureId& feature, const Vec3& p_W,
                              const Vec3& d_W) {
     const double rounding =
@@ -316,7 +326,7 @@ bool within_tolerance(const Scene& scene, const Pose& X_WM, const Lmd& lmd) {
     return true;
   };
   const WorldBody moving(scene.moving->surface(), RigidTransform(X_WM));
-  const WorldBody fixed(scene.fixed[static_cast<std::size_t>(lmd.fixed_body)]->surface(), RigidTransform());
+  const WorldBody fixed(fixed_surface, RigidTransform());
   const Vec3 d_W = lmd.point_fixed - lmd.point_moving;
   return admits(moving, lmd.feature_moving, lmd.point_moving, d_W) &&
          admits(fixed, lmd.feature_fixed, lmd.point_fixed, -d_W);

@@ -140,11 +140,11 @@ that another one is gone is not seen. Left to rounding: not known, but the dista
 cutoff, or a triangle has no area. Sharing a plane: reported LMDs in one plane of contact with another one: pieces of a
 plateau that tolerances tore apart, or doubled. Doubled: of the name or at the place of another one, or of its contact:
 exact LMDs that hang together over common triangles. True by tolerance: reported LMDs that meet the condition of their
-own triangles but for a sine of 1e-9 (segments and areas: 5e-8) and rounding: features that are nearly parallel, also
-where another part of the same mesh touches them without common vertices, and triangles that are segments. Misplaced:
-with a point off its feature, or an intersection whose named triangles are apart. Where on a plateau its LMD lies is not
-asked. Wrong contacts: frames in which exact intersection tests of all triangles and the method differ; how many
-intersections there are is not asked.
+own triangles but for a sine of 1e-9 (segments and areas: the tilt at which the meshes are parallel) and rounding:
+features that are nearly parallel, also where another part of the same mesh touches them without common vertices, and
+triangles that are segments. Misplaced: with a point off its feature, or an intersection whose named triangles are
+apart. Where on a plateau its LMD lies is not asked. Wrong contacts: frames in which exact intersection tests of all
+triangles and the method differ; how many intersections there are is not asked.
 )";
 }
 
