@@ -64,7 +64,8 @@ commit_of() {
   case $1 in
   hostile | parts | solids | shapes | metamorphic) read=("${SEARCHED[@]}" "${STUDIES[@]}") unread+=("${above[@]}" "${tests[@]}") ;;
   rest | generated) read=("${SEARCHED[@]}" experiments/judge) unread+=("${above[@]}" "${tests[@]}") ;;
-  completeness | fuzz-*) unread+=(':!experiments/judge' "${tests[@]}") ;;
+  completeness) read=(CMakeLists.txt src experiments meshes paths) unread+=(':!experiments/judge' "${tests[@]}") ;;
+  fuzz-*) unread+=(':!experiments' "${tests[@]}") ;;
   reference) unread+=("${tests[@]}") ;;
   esac
   git log -1 --format=%h -- "${read[@]}" "${unread[@]}"
