@@ -23,14 +23,16 @@ cd "$ROOT" || exit 1
 mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd`, which all methods need, has a third of the time
 PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
   shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
-# What searches in generated scenes include beside their study or judge,
-SEARCHED=(CMakeLists.txt src experiments/support)
-STUDIES=(experiments/study/{CMakeLists.txt,completeness,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
-# but rooms and files that make no set: commands, drivers, numbers, files of results, interfaces,
-# what is told of meshes; and what reads meshes and paths, which those searches make themselves.
+# Rooms and files that make no set: commands, drivers, numbers, files of results, interfaces, what
+# is told of meshes; and what reads meshes and paths, which searches in generated scenes make.
 ABOVE_METHODS=(src/lmdbench/{catalogue/'*_file.*',cli,comparison,drivers,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
   src/lmdbench/{phantom,plugin,prepare,probes,python,realtime,result,result_file,run,stability,sweep,view} experiments/judge/main.cpp
   experiments/support/'program.*')
+# What only tests and this script read.
+TESTS=(':!*_test.cpp' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
+# What searches in generated scenes include beside their study or judge.
+SEARCHED=(CMakeLists.txt src experiments/support "${ABOVE_METHODS[@]/#/:!}" "${TESTS[@]}")
+STUDIES=(experiments/study/{CMakeLists.txt,completeness,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
 FUZZ_MINUTES="${LMDBENCH_FUZZ_MINUTES:-360}"
@@ -59,16 +61,15 @@ all_meshes() { build_preset release >&2 && build_meshes build/release/lmdbench; 
 
 # commit_of PART: the last one that changed what the part may read.
 commit_of() {
-  local -a read=(.) unread=(':!results' ':!*.md')
-  local -a above=("${ABOVE_METHODS[@]/#/:!}") tests=(':!*_test.cpp' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
+  local -a read=(.)
   case $1 in
-  hostile | parts | solids | shapes | metamorphic) read=("${SEARCHED[@]}" "${STUDIES[@]}") unread+=("${above[@]}" "${tests[@]}") ;;
-  rest | generated) read=("${SEARCHED[@]}" experiments/judge) unread+=("${above[@]}" "${tests[@]}") ;;
-  completeness) read=(CMakeLists.txt src experiments meshes paths) unread+=(':!experiments/judge' "${tests[@]}") ;;
-  fuzz-*) unread+=(':!experiments' "${tests[@]}") ;;
-  reference) unread+=("${tests[@]}") ;;
+  hostile | parts | solids | shapes | metamorphic) read=("${SEARCHED[@]}" "${STUDIES[@]}") ;;
+  rest | generated) read=("${SEARCHED[@]}" experiments/judge) ;;
+  completeness) read=(CMakeLists.txt src experiments meshes paths ':!experiments/judge' "${TESTS[@]}") ;;
+  fuzz-*) read+=(':!experiments' "${TESTS[@]}") ;;
+  reference) read+=("${TESTS[@]}") ;;
   esac
-  git log -1 --format=%h -- "${read[@]}" "${unread[@]}"
+  git log -1 --format=%h -- "${read[@]}" ':!results' ':!*.md'
 }
 # What a part was asked for, beside its name.
 conditions() {

@@ -86,8 +86,8 @@ struct LevelParts {
   std::optional<std::unordered_set<std::int32_t>> moving, fixed;
 };
 
-/// What the definition grants to contacts of two meshes ("In floating-point numbers"; its numbers
-/// stand here again).
+/// What the definition grants to contacts of two meshes (DEFINITION.md, "In floating-point
+/// numbers"; its numbers stand here again).
 struct Tolerance {
   double known = 0.0;         ///< metres
   double largest_tilt = 0.0;  ///< The sine up to which features are parallel.
