@@ -142,8 +142,9 @@ def check(program, folder, with_times=True):
 def renew(program, folder):
     os.makedirs(folder, exist_ok=True)
     for scene in SCENES:
+        measured = measure(program, scene)  # before the file is opened, which empties it
         with open(baseline_file(folder, scene), "w", encoding="utf-8") as stream:
-            json.dump(measure(program, scene), stream, indent=1, sort_keys=True)
+            json.dump(measured, stream, indent=1, sort_keys=True)
             stream.write("\n")
         print(f"wrote {os.path.relpath(baseline_file(folder, scene), ROOT)}")
     return 0

@@ -73,7 +73,8 @@ commit_of() {
 }
 base="$(commit_of "${revisions[0]}")"
 candidate="$(commit_of "${revisions[1]:-HEAD}")"
-out="$(mkdir -p "$out" && cd "$out" && pwd)"
+mkdir -p "$out" || usage "the folder $out cannot be made"
+out="$(cd "$out" && pwd)"
 
 # broken SIDE STEP MESSAGE LOG: outcome without comparison; exit code by scripts/ci/outcome.py.
 broken() { exec python3 "$ROOT/scripts/ci/outcome.py" "$out" "$@"; }

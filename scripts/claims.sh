@@ -27,7 +27,7 @@ build_meshes "$BUILD/lmdbench"
 
 # The hard contact's specification with other seeds, its approaches one after another.
 make_paths() {
-  "$PYTHON" - "$PATH_FOLDER" "$PATHS" "$APPROACHES" <<'PYTHON_END'
+  "$PYTHON" - "$PATH_FOLDER" "$PATHS" "$APPROACHES" <<'PYTHON_END' || return
 import json
 import sys
 from pathlib import Path
@@ -46,7 +46,7 @@ PYTHON_END
   local spec file
   for spec in "$PATH_FOLDER"/hard-[0-9][0-9].json; do
     file="${spec%.json}.tum"
-    [[ -s $file && ! $spec -nt $file ]] || "$BUILD/lmdbench" path generate "$spec" --out "$file" >/dev/null
+    [[ -s $file && ! $spec -nt $file ]] || "$BUILD/lmdbench" path generate "$spec" --out "$file" >/dev/null || return
   done
 }
 

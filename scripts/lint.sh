@@ -48,9 +48,10 @@ python_files() {
 
 headers() {
   local files bad
-  mapfile -t files < <(sources '*.h' '*.cpp' '*.py' '*.sh' '*CMakeLists.txt' '.ci/run')
+  mapfile -t files < <(sources '*.h' '*.cpp' '*.c' '*.js' '*.py' '*.sh' '*CMakeLists.txt' '.ci/run')
   bad="$(for f in "${files[@]}"; do head -n 3 "$f" | grep -q SPDX-License-Identifier || echo "$f: no SPDX header"; done)"
   # LC_ALL=C: grep takes bytes outside ASCII as they are, in any encoding.
+  [[ -z $bad ]] || bad+=$'\n'
   bad+="$(LC_ALL=C grep -nP '[^\x00-\x7F]' "${files[@]}" | sed 's/$/  (not ASCII)/')"
   [[ -z $bad ]] && say "headers and ASCII: ${#files[@]} files" && return 0
   printf '%s\n' "$bad" >&2
@@ -77,46 +78,63 @@ comments() {
   return 1
 }
 
-# Sources in src/ that changed since the base, also by their header; all if there is no base.
+# Sources in src/ that changed since the base, also by their header; all if there is no base. Not
+# templates, which are projects of their own.
 changed_sources() {
-  local base="${LMDBENCH_LINT_BASE:-HEAD~1}" file
+  local base="${LMDBENCH_LINT_BASE:-HEAD~1}" file templates=':!src/lmdbench/plugin/template'
   if ! git rev-parse --quiet --verify "$base^{commit}" >/dev/null; then
-    git ls-files 'src/*.cpp'
+    git ls-files 'src/*.cpp' "$templates"
     return
   fi
-  git diff --name-only "$base" -- 'src/*.cpp' 'src/*.h' | while read -r file; do
+  git diff --name-only "$base" -- 'src/*.cpp' 'src/*.h' "$templates" | while read -r file; do
     [[ -e ${file%.*}.cpp ]] && echo "${file%.*}.cpp"
   done | sort -u
 }
 
-# tidy FOLDER UNITY [ARGUMENT...] PATTERN...: sources whose names match, in the tree configured in
-# build/FOLDER, with ON those of a library at once; not tests and benchmarks, as the rules are for
+# tidy PRESET FOLDER UNITY [ARGUMENT...] PATTERN...: sources whose names match, in the tree configured
+# in build/FOLDER, with ON those of a library at once; not tests and benchmarks, as the rules are for
 # code that ships.
 tidy() {
-  local folder="$ROOT/build/$1" unity="$2"
-  shift 2
+  local preset="$1" folder="$ROOT/build/$2" unity="$3" least=0 count more
+  shift 3
+  for more in "$@"; do [[ $more == -* ]] || least=$((least + 1)); done
+  # The module is code that ships, too.
+  [[ $preset == develop ]] && more=(-DLMDBENCH_WITH_PYTHON=ON) || more=(-DLMDBENCH_PRECOMPILED_HEADERS=OFF)
   # A configured tree with its generated header is enough; it must have no precompiled headers, as
   # clang cannot read GCC's.
-  (cd "$ROOT" && cmake --preset develop -B "$folder" -DLMDBENCH_UNITY="$unity" && cmake --build "$folder" --target lmdbench_git_state) >/dev/null ||
+  (cd "$ROOT" && cmake --preset "$preset" -B "$folder" -DLMDBENCH_UNITY="$unity" "${more[@]}" && cmake --build "$folder" --target lmdbench_git_state) >/dev/null ||
     die "$EXIT_ENVIRONMENT" "the tree cannot be configured (remedy: ./scripts/setup.sh)"
   # The compile commands are GCC's; clang may not know all warnings.
   if run-clang-tidy -quiet -extra-arg=-Wno-unknown-warning-option -j "$JOBS" -p "$folder" "$@" >"$folder/clang-tidy.log" 2>/dev/null; then
-    say "clang-tidy: $(grep -ac '^clang-tidy' "$folder/clang-tidy.log") sources"
-    return 0
+    count="$(grep -ac '^clang-tidy' "$folder/clang-tidy.log")"
+    ((count >= least)) && say "clang-tidy: $count sources" && return 0
+    say "clang-tidy: only $count of $least sources, as the others are not compiled in $folder (remedy: scripts/lint.sh tells where)"
+    return 1
   fi
   sed -i 's/\x1b\[[0-9;]*m//g' "$folder/clang-tidy.log"
   grep -E "(warning|error): " "$folder/clang-tidy.log" | sort -u >&2
   say "clang-tidy: see $folder/clang-tidy.log"
   return 1
 }
+# Compiled only where an option is off.
+SMALLEST='/(obj_file|few_commands|assimp_missing|fcl_missing)[.]cpp$'
+tidy_smallest() { tidy smallest tidy-smallest OFF "$@"; }
 # The files of a library at once, by which headers are read a fifth as often; what is only asked of
 # a whole source (using-declarations that nobody needs) tidy_changed asks.
-tidy_all() { tidy tidy ON -checks=-bugprone-suspicious-include /src/lmdbench/; }
+tidy_all() {
+  local failed=0
+  tidy develop tidy ON -checks=-bugprone-suspicious-include /src/lmdbench/ || failed=1
+  tidy_smallest "$SMALLEST" || failed=1
+  return "$failed"
+}
 tidy_changed() {
-  local files
-  mapfile -t files < <(changed_sources)
-  ((${#files[@]} == 0)) && say "clang-tidy: nothing to check" && return 0
-  tidy develop OFF "${files[@]/%/\$}"
+  local files small failed=0
+  mapfile -t files < <(changed_sources | grep -vE "$SMALLEST")
+  mapfile -t small < <(changed_sources | grep -E "$SMALLEST")
+  ((${#files[@]} + ${#small[@]} > 0)) || say "clang-tidy: nothing to check"
+  ((${#files[@]} == 0)) || tidy develop develop OFF "${files[@]/%/\$}" || failed=1
+  ((${#small[@]} == 0)) || tidy_smallest "${small[@]/%/\$}" || failed=1
+  return "$failed"
 }
 
 status=0

@@ -64,10 +64,15 @@ mutants() {
     END { row_ends() }' "$LIST"
 }
 mapfile -t rows < <(mutants)
+for name in "${only[@]}"; do
+  printf '%s\n' "${rows[@]%%$'\037'*}" | grep -qxF -- "$name" ||
+    die 2 "there is no defect '$name' (remedy: its names: grep '^  [a-z]' scripts/mutants.txt)"
+done
 begin=$(((part - 1) * ${#rows[@]} / parts)) end=$((part * ${#rows[@]} / parts))
 
 # plant FILE FROM TO: replaces the text, which must occur exactly once.
 plant() {
+  [[ -f $TREE/$1 ]] || return
   FROM="$2" TO="$3" perl -0777 -i -pe '
     BEGIN { $from = $ENV{FROM}; $to = $ENV{TO}; }
     my $count = () = /\Q$from\E/g;

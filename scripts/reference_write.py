@@ -10,6 +10,7 @@ keeps its commits and names it beside them."""
 import argparse
 import csv
 import functools
+import itertools
 import os
 import re
 import shutil
@@ -66,15 +67,16 @@ def projected(block, columns):
 
 def with_tables_of(page, output):
     """The page with the tables of an output, how many of its own were not renewed, and the whole of those of which it shows a part,
-    [(heading, block)]. A table under the same heading comes first, of several the first."""
+    [(heading, block)]. A table under the same heading comes first, of several the first; none that is under the heading of another one of the page."""
     fresh, whole, kept, heading = tables_of(output), [], 0, ""
-    written = blocks(page)
+    written, headings = blocks(page), {under for under, _ in tables_of(page)}
     for i, block in enumerate(written):
         if not is_table(block):
             heading = tables_of(block + "|\n")[-1][0] or heading
             continue
         names = rows_of(block)[0]
-        able = [(under != heading, len(rows_of(other)[0]), k) for k, (under, other) in enumerate(fresh) if places(names, rows_of(other)[0])]
+        able = [(under != heading, len(rows_of(other)[0]), k) for k, (under, other) in enumerate(fresh)
+                if (under == heading or under not in headings) and places(names, rows_of(other)[0])]
         if not able:
             kept += 1
             continue
@@ -87,17 +89,32 @@ def with_tables_of(page, output):
     return "".join(written), kept, whole
 
 
-def write_whole(page, whole):
-    """tables/PAGE.csv, or PAGE-2.csv, ... where tables have other columns: all of them, beside the headings that they stand under."""
+def write_whole(page, whole, kept):
+    """tables/PAGE.csv, or PAGE-2.csv, ... where tables have other columns: all of them, beside the headings that they stand under. Where tables of the
+    page were kept, so are the rows of headings that are not among these."""
+    folder = Path(page).parent / "tables"
+    folder.mkdir(exist_ok=True)
+    written = {}
+    for file in sorted(folder.glob(f"{Path(page).stem}*.csv")):
+        if re.fullmatch(r"(-[0-9]+)?", file.stem.removeprefix(Path(page).stem)):
+            with file.open(encoding="utf-8", newline="") as stream:
+                names, *rows = csv.reader(stream)
+            if kept:
+                written[tuple(names[1:])] = (file, rows)
+            else:
+                file.unlink()
     groups = {}
     for heading, block in whole:
         names, *rows = rows_of(block)
-        groups.setdefault(tuple(names), []).extend([heading, *(cell.replace("**", "").strip("*") for cell in row)] for row in rows)
-    folder = os.path.join(os.path.dirname(page), "tables")
-    os.makedirs(folder, exist_ok=True)
-    for number, (names, rows) in enumerate(groups.items(), 1):
-        name = Path(page).stem + (f"-{number}" if number > 1 else "") + ".csv"
-        with open(os.path.join(folder, name), "w", encoding="utf-8", newline="") as stream:
+        groups.setdefault(tuple(names), {}).setdefault(heading, []).extend([heading, *(cell.replace("**", "").strip("*") for cell in row)] for row in rows)
+    for names, fresh in groups.items():
+        if names not in written:
+            numbered = (folder / f"{Path(page).stem}{'' if number == 1 else f'-{number}'}.csv" for number in itertools.count(1))
+            written[names] = (next(file for file in numbered if not file.exists()), [])
+        file, before = written[names]
+        headings = dict.fromkeys([*(row[0] for row in before), *fresh])
+        rows = [row for heading in headings for row in fresh.get(heading) or (row for row in before if row[0] == heading)]
+        with file.open("w", encoding="utf-8", newline="") as stream:
             csv.writer(stream, lineterminator="\n").writerows([["table", *names], *rows])
 
 
@@ -146,11 +163,11 @@ def renew(path, run):
     body = head_and_body(output)[1] if source == same else ""
     page_then = head_and_body(page)[0] + shown_as(body, page) if body else page
     text, kept, whole = with_tables_of(page_then, output)
-    if text == page and kept:
+    if text == page and kept == len(tables_of(page)) > 0:
         return None
     Path(path).write_text(text, encoding="utf-8")
     if whole:
-        write_whole(path, whole)
+        write_whole(path, whole, kept)
     return kept
 
 

@@ -25,13 +25,13 @@ PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages
   shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
 # Rooms and files that make no set: commands, drivers, numbers, files of results, interfaces, what
 # is told of meshes; and what reads meshes and paths, which searches in generated scenes make.
-ABOVE_METHODS=(src/lmdbench/{catalogue/'*_file.*',cli,comparison,drivers,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
+ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,catalogue/'*_file.*',cli,comparison,drivers,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
   src/lmdbench/{phantom,plugin,prepare,probes,python,realtime,result,result_file,run,stability,sweep,view} experiments/judge/main.cpp
   experiments/support/'program.*')
 # What only tests and this script read.
 TESTS=(':!*_test.cpp' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
 # What searches in generated scenes include beside their study or judge.
-SEARCHED=(CMakeLists.txt src experiments/support "${ABOVE_METHODS[@]/#/:!}" "${TESTS[@]}")
+SEARCHED=(CMakeLists.txt CMakePresets.json src experiments/support "${ABOVE_METHODS[@]/#/:!}" "${TESTS[@]}")
 STUDIES=(experiments/study/{CMakeLists.txt,completeness,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
@@ -65,11 +65,11 @@ commit_of() {
   case $1 in
   hostile | parts | solids | shapes | metamorphic) read=("${SEARCHED[@]}" "${STUDIES[@]}") ;;
   rest | generated) read=("${SEARCHED[@]}" experiments/judge) ;;
-  completeness) read=(CMakeLists.txt src experiments meshes paths ':!experiments/judge' "${TESTS[@]}") ;;
+  completeness) read=(CMakeLists.txt CMakePresets.json src experiments meshes paths ':!experiments/judge' "${TESTS[@]}") ;;
   fuzz-*) read+=(':!experiments' "${TESTS[@]}") ;;
   reference) read+=("${TESTS[@]}") ;;
   esac
-  git log -1 --format=%h -- "${read[@]}" ':!results' ':!*.md'
+  git log -1 --format=%h -- "${read[@]}" ':!results/re*' ':!*.md' # not what runs left, as baselines are read
 }
 # What a part was asked for, beside its name.
 conditions() {
@@ -112,6 +112,13 @@ part() {
   esac
 }
 
+# is_done VERDICT PART: made of as many poses or minutes as asked for, with any seed. What `reference`
+# reads are pages, so it is asked each time.
+is_done() {
+  local asked
+  [[ -s $1 && $2 != reference ]] && IFS='|' read -r _ _ _ _ asked _ <"$1" && [[ ${asked%, seed*} == "$(conditions "$2" | sed 's/, seed.*//')" ]]
+}
+
 if [[ ${1:-} == --list ]]; then
   printf '%s\n' "${PARTS[@]}"
   exit 0
@@ -130,15 +137,17 @@ mkdir -p "$OUT/$COMMIT"
 
 for name in "${chosen[@]}"; do
   made="$OUT/$(commit_of "$name")/$name"
-  (($# == 0)) && [[ -s $made.verdict ]] && continue
+  (($# == 0)) && is_done "$made.verdict" "$name" && continue
   say "== $name"
   mkdir -p "${made%/*}"
   started=$EPOCHREALTIME status=0
   (part "$name") >"$made.txt" 2>&1 || status=$?
-  # What ctest counts stands above the tests that it skipped.
-  last="$( (grep -a '% tests passed' "$made.txt" || grep -av '^[[:space:]]*$' "$made.txt") | tail -n 1 | tr '|' '/' | cut -c1-120)"
+  # What ctest counts stands above the tests that it skipped; scripts/test.sh counts more than tests.
+  counts='% tests passed'
+  [[ $name != test ]] || counts='^[0-9]* passed, [0-9]* failed'
+  last="$( (grep -a "$counts" "$made.txt" || grep -av '^[[:space:]]*$' "$made.txt") | tail -n 1 | tr '|' '/' | cut -c1-120)"
   skipped="$(grep -ac '(Skipped)$' "$made.txt")"
-  ((skipped == 0)) || last+=", $skipped skipped"
+  [[ $name == test ]] || ((skipped == 0)) || last+=", $skipped skipped"
   printf '%s|%s|%s|%s|%s|%s\n' "$status" "$(seconds_since "$started")" "$(date +%F)" "$MACHINE" "$(conditions "$name")" "$last" \
     >"$made.verdict"
   say "   exit code $status, $(seconds_since "$started")"
@@ -158,7 +167,7 @@ failed=0 causes=""
     case $status in 0) verdict="passed" ;; missing) verdict="not run" ;; *) verdict="FAILED ($status)" ;; esac
     [[ $status == 0 ]] || failed=1
     [[ $verdict != FAILED* ]] ||
-      causes+="- $(grep "^$name: " "$OUT/causes.txt" || printf '%s: not looked into yet.' "$name")"$'\n'
+      causes+="- $(grep "^$name@$at: " "$OUT/causes.txt" || printf '%s@%s: not looked into yet.' "$name" "$at")"$'\n'
     printf '| %s | %s | %s | %s | %s | %s | %s | %s |\n' "$name" "$at" "$verdict" "$seconds" "$day" "$machine" "$asked" "$last"
   done
   [[ -z $causes ]] || printf '\nWhy parts failed:\n\n%s' "$causes"

@@ -74,7 +74,7 @@ def build():
 
 
 def instructions(program, experiment, frames, folder):
-    """(instructions of so many frames, hash of their LMD sets and forces)"""
+    """(instructions a frame, hash of their LMD sets and forces); a path may have fewer frames"""
     out = os.path.join(folder, "r.h5")
     done = run(["valgrind", "--tool=callgrind", "--toggle-collect=lmdbench::Certified::search*",
                 "--toggle-collect=lmdbench::WideHierarchy::follow*",
@@ -82,20 +82,17 @@ def instructions(program, experiment, frames, folder):
                 *SCENE, "--set", f"/frames={frames}", "--out", out], env=os.environ | {"OPENSSL_ia32cap": ":~0x0"})
     counted = re.search(r"Collected : (\d+)", done.stderr)
     named = re.search(r"hash ([0-9a-f]{16})", done.stdout)
-    if not counted or not named or int(counted[1]) == 0:  # an inlined search has no name to count
+    ran = re.search(r"(\d+) frames", done.stdout)
+    if not counted or not named or not ran or int(counted[1]) == 0:  # an inlined search has no name to count
         fail("callgrind saw no search, or the program said something unexpected")
     os.remove(out)
-    return int(counted[1]), named[1]
+    return int(counted[1]) / int(ran[1]), named[1]
 
 
 def costs(program, experiments, frames):
     """Instructions a frame and the hash, of each experiment."""
     with tempfile.TemporaryDirectory(prefix="tuned-") as folder:
-        rows = []
-        for experiment in experiments:
-            count, named = instructions(program, experiment, frames, folder)
-            rows.append((count / frames, named))
-        return rows
+        return [instructions(program, experiment, frames, folder) for experiment in experiments]
 
 
 def main():

@@ -166,8 +166,8 @@ class Regression:
             word = answer["verdict"]
             null = self.against_itself()["verdict"]
             self.looks.append({"rounds": self.rounds, "candidate": word, "base": null,
-                               "highest_low": max(known(t["low"], 0.0) for t in answer["timings"]),
-                               "detectable": max(known(t["detectable"], math.inf) for t in answer["timings"])})
+                               "highest_low": max((known(t["low"], 0.0) for t in answer["timings"]), default=0.0),
+                               "detectable": max((known(t["detectable"], math.inf) for t in answer["timings"]), default=math.inf)})
             self.say(f"after {self.rounds} rounds: candidate {word}, base against itself {null}")
             trusted = null in ("same", "unsure")
             if suspects and trusted:

@@ -161,7 +161,7 @@ def k7(found, sweep):
     for (scene, period, share), (low, high) in ratios.items():
         soft = ratios.get((scene.replace("hard", "soft"), period, share if share != 0.005 else 0.05))
         if "hard" in scene and soft is not None:
-            less = HOLDS if soft[1] < 0.9 * low else FAILS if soft[0] > high else OPEN
+            less = HOLDS if soft[1] < 0.9 * low else FAILS if soft[0] > 0.9 * high else OPEN
             found.cells[f"cutoff {100 * share:g} % | a search every {period} frames"] = all_of(
                 decide(low, high, at_least=2.0), decide(*soft, at_least=1.0), less)
     return why_k7(times_per_lmd)

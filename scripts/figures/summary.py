@@ -11,7 +11,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 
 import numpy as np
 
-from lmdbench_results import no_truth, run_script, truth_of
+from lmdbench_results import no_truth, run_script, true_forces, truth_of
 from tables import percent, shown
 from variants import open_results
 
@@ -52,18 +52,16 @@ def row(method):
 
 
 def truth_rows(result):
-    """The truth that the methods are compared with, a row a force law in use."""
-    rows = {}
-    for method in result.methods.values():
+    """The truths that the methods are compared with: one for each law that methods share poses and profile under."""
+    rows = []
+    for what, method in true_forces(result.methods.values()):
         group = method.reference()
-        if not result.has(f"{group}/frame"):
-            continue
         # The program sums up the sets that all methods share.
         lmds = (median_and_most(result.number("true_lmd_count_median"), result.number("true_lmd_count_maximum")) if group == "/reference"
                 else NOT_MEASURED)
-        law = f"{method.force_law} law" + (f", {method.profile}" if method.profile else "")
-        rows.setdefault(law, [f"truth, {law}", *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3, str(method.events("true_jumps"))])
-    return list(rows.values())
+        name = what + (f", {method.profile}" if method.profile else "")
+        rows.append([name, *[NOT_MEASURED] * 3, lmds, *[NOT_MEASURED] * 3, str(method.events("true_jumps"))])
+    return rows
 
 
 HEADINGS = ("method", "search [ms]", "+ reduction [ms]", "local update [ms]", "LMDs", "recall [%]", "precision [%]",

@@ -155,6 +155,12 @@ class GateTest(SharedScratch):
         allowed = self.gitlab["allow_failure"]["exit_codes"]
         return {0: "passed", allowed: "warning"}.get(done.returncode, "failed"), done
 
+    def test_a_machine_that_cannot_be_set_up_has_compared_nothing(self):
+        setup = self.gitlab["before_script"][-1]
+        self.assertIn("./scripts/setup.sh", setup)
+        done = call("bash", "-e", "-c", setup.replace("./scripts/setup.sh", "(exit 4)"))
+        self.assertEqual(done.returncode, 3, "4 is a warning here")
+
     def on_github(self, code):
         """(outcome of the step, its annotation, the job's summary), where ci_regression.sh leaves again what it left on GitLab."""
         (step,) = [step for step in self.github["steps"] if step.get("name") == "Compare with the base"]

@@ -166,6 +166,15 @@ class WrittenFiles(Scratch):
         self.assertEqual(self.read("kernel.md"), "# What?\n\nThis.\n\n## a\nNew.\n\n| p99 |\n|---|\n| 6 |\n")
         self.assertEqual(self.read("tables", "kernel.csv"), "table,us,p99\na,5,6\n")
 
+    def test_a_part_that_makes_some_tables_keeps_the_rows_of_the_others_and_those_that_the_page_hides_are_renewed(self):
+        page = self.write("worlds.md", "## a\n| p99 |\n|---|\n| 1 |\n## b\n| p99 |\n|---|\n| 2 |\n## c\n| us |\n|---|\n| 3 |\n")
+        self.write("tables/worlds-2.csv", "table,us,p99\na,5,1\nb,6,2\n")
+        self.write("run/worlds.txt", "## b\n| us | p99 |\n|---|---|\n| 7 | 2 |\n")
+        before = self.read("worlds.md")
+        self.assertEqual(renew(page, self.path("run")), 2)
+        self.assertEqual(self.read("worlds.md"), before)
+        self.assertEqual(self.read("tables", "worlds-2.csv"), "table,us,p99\na,5,1\nb,7,2\n")
+
     def test_a_row_names_the_commit_of_what_was_renewed_and_keeps_that_of_what_was_not(self):
         register = self.write("README.md", "| `a.md`, `a.png` | c | 1111111 | lmd | older |\n| `b.md` | c | 2222222 | lmd | |\n")
         with unittest.mock.patch.object(reference_ages, "REGISTER", register):

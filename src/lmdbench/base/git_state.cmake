@@ -15,7 +15,7 @@ if(GIT_PROGRAM)
   # An exported copy inside another repository has a prefix: that repository's commit is not ours.
   if(NOT failed AND answer MATCHES "^\n([0-9a-f]+)\n$")
     set(commit "${CMAKE_MATCH_1}")
-    execute_process(COMMAND ${git} status --porcelain --untracked-files=no
+    execute_process(COMMAND ${git} status --porcelain --untracked-files=no -- . ":!results"
                     RESULT_VARIABLE tracked_failed OUTPUT_VARIABLE tracked ERROR_QUIET)
     execute_process(COMMAND ${git} status --porcelain --untracked-files=normal -- src
                     RESULT_VARIABLE untracked_failed OUTPUT_VARIABLE untracked ERROR_QUIET)
