@@ -91,30 +91,26 @@ changed_sources() {
   done | sort -u
 }
 
-# tidy PRESET FOLDER UNITY [ARGUMENT...] PATTERN...: sources whose names match, in the tree configured
-# in build/FOLDER, with ON those of a library at once; not tests and benchmarks, as the rules are for
-# code that ships.
+# tidy PRESET FOLDER UNITY [ARGUMENT...] PATTERN...: sources whose names match, in the tree
+# configured in build/FOLDER, with ON those of a library at once; not tests and benchmarks, as the
+# rules are for code that ships.
 tidy() {
-  local preset="$1" folder="$ROOT/build/$2" unity="$3" least=0 count more
+  local preset="$1" folder="$ROOT/build/$2" options=(-DLMDBENCH_UNITY="$3" -DLMDBENCH_PRECOMPILED_HEADERS=OFF)
   shift 3
-  for more in "$@"; do [[ $more == -* ]] || least=$((least + 1)); done
-  # The module is code that ships, too.
-  [[ $preset == develop ]] && more=(-DLMDBENCH_WITH_PYTHON=ON) || more=(-DLMDBENCH_PRECOMPILED_HEADERS=OFF)
+  [[ $preset == smallest ]] || options+=(-DLMDBENCH_WITH_PYTHON=ON) # the module is code that ships, too
   # A configured tree with its generated header is enough; it must have no precompiled headers, as
   # clang cannot read GCC's.
-  (cd "$ROOT" && cmake --preset "$preset" -B "$folder" -DLMDBENCH_UNITY="$unity" "${more[@]}" && cmake --build "$folder" --target lmdbench_git_state) >/dev/null ||
+  (cd "$ROOT" && cmake --preset "$preset" -B "$folder" "${options[@]}" && cmake --build "$folder" --target lmdbench_git_state) >/dev/null ||
     die "$EXIT_ENVIRONMENT" "the tree cannot be configured (remedy: ./scripts/setup.sh)"
   # The compile commands are GCC's; clang may not know all warnings.
-  if run-clang-tidy -quiet -extra-arg=-Wno-unknown-warning-option -j "$JOBS" -p "$folder" "$@" >"$folder/clang-tidy.log" 2>/dev/null; then
-    count="$(grep -ac '^clang-tidy' "$folder/clang-tidy.log")"
-    ((count >= least)) && say "clang-tidy: $count sources" && return 0
-    say "clang-tidy: only $count of $least sources, as the others are not compiled in $folder (remedy: scripts/lint.sh tells where)"
-    return 1
-  fi
-  sed -i 's/\x1b\[[0-9;]*m//g' "$folder/clang-tidy.log"
-  grep -E "(warning|error): " "$folder/clang-tidy.log" | sort -u >&2
-  say "clang-tidy: see $folder/clang-tidy.log"
-  return 1
+  local log="$folder/clang-tidy.log" status=0 count least
+  run-clang-tidy -quiet -extra-arg=-Wno-unknown-warning-option -j "$JOBS" -p "$folder" "$@" 2>/dev/null | sed 's/\x1b\[[0-9;]*m//g' >"$log" || status=1
+  grep -E "(warning|error): " "$log" | sort -u >&2
+  count="$(grep -ac '^clang-tidy' "$log")"
+  least="$(printf '%s\n' "$@" | grep -vc '^-')" # patterns
+  ((count >= least)) || status=1
+  say "clang-tidy: $count sources$( ((count >= least)) || echo " of $least, as the others are not compiled in $folder")$( ((status == 0)) || echo "; see $log")"
+  return "$status"
 }
 # Compiled only where an option is off.
 SMALLEST='/(obj_file|few_commands|assimp_missing|fcl_missing)[.]cpp$'

@@ -112,8 +112,8 @@ part() {
   esac
 }
 
-# is_done VERDICT PART: made of as many poses or minutes as asked for, with any seed. What `reference`
-# reads are pages, so it is asked each time.
+# is_done VERDICT PART: made of as many poses or minutes as asked for, with any seed. `reference` is
+# asked each time, as it reads pages.
 is_done() {
   local asked
   [[ -s $1 && $2 != reference ]] && IFS='|' read -r _ _ _ _ asked _ <"$1" && [[ ${asked%, seed*} == "$(conditions "$2" | sed 's/, seed.*//')" ]]
@@ -142,7 +142,7 @@ for name in "${chosen[@]}"; do
   mkdir -p "${made%/*}"
   started=$EPOCHREALTIME status=0
   (part "$name") >"$made.txt" 2>&1 || status=$?
-  # What ctest counts stands above the tests that it skipped; scripts/test.sh counts more than tests.
+  # What ctest counts stands above the tests that it skipped; test.sh counts more than tests.
   counts='% tests passed'
   [[ $name != test ]] || counts='^[0-9]* passed, [0-9]* failed'
   last="$( (grep -a "$counts" "$made.txt" || grep -av '^[[:space:]]*$' "$made.txt") | tail -n 1 | tr '|' '/' | cut -c1-120)"

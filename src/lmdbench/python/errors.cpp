@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <string>
+#include <utility>
 
 namespace lmdbench::python {
 namespace {
@@ -59,7 +60,7 @@ void register_errors(py::module_& module) {
                                  py::make_tuple(base), ExitCode::ENVIRONMENT);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const lmdbench::Error& error) {
       PyErr_SetString(class_for(error.code()), error.what());
     }
