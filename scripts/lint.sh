@@ -113,7 +113,7 @@ tidy() {
   return "$status"
 }
 # Compiled only where an option is off.
-SMALLEST='/(obj_file|few_commands|assimp_missing|fcl_missing)[.]cpp$'
+SMALLEST='/(few_commands|assimp_missing|fcl_missing)[.]cpp$'
 tidy_smallest() { tidy smallest tidy-smallest OFF "$@"; }
 # The files of a library at once, by which headers are read a fifth as often; what is only asked of
 # a whole source (using-declarations that nobody needs) tidy_changed asks.

@@ -183,7 +183,9 @@ TEST_F(HostileInput, PolygonsAndLinesWithoutEnd) {
   for (int i = 0; i < 1'000'000; ++i) corners += " 1";
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
   EXPECT_THAT(info("polygon.obj", square + "f" + corners + "\n"), HasSubstr("--limit polygon-corners="));
-  EXPECT_THAT(info("line.obj", square + "f 1 2 3\n# " + std::string(3'000'000, 'x')), HasSubstr("line 6"));
+  EXPECT_EQ(
+      lmdbench("mesh info " + write("line.obj", square + "f 1 2 3\n# " + std::string(3'000'000, 'x'))).code,
+      0);
   EXPECT_THAT(info("polygon.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1000000" + corners + "\n"),
               HasSubstr("--limit polygon-corners="));
 }

@@ -31,6 +31,7 @@ TEST(ProgressLine, KeepsItsLength) {
   };
   EXPECT_EQ(bar(0), bar(10));
   EXPECT_EQ(bar(3), bar(10));
+  EXPECT_EQ(bar(11), bar(10)) << "more than announced";
   EXPECT_THAT(progress_line("truth", 0, 0, 1.0), HasSubstr("100 %")) << "nothing to do is done";
 }
 

@@ -272,6 +272,24 @@ TEST_F(ExactDifferences, OrderOfMethodsDoesNotMatter) {
   EXPECT_THAT(settings({}, candidate), IsEmpty());
 }
 
+/// In a closed loop the number of true LMDs is that of the first method's own way.
+TEST_F(ExactDifferences, TrueLmdsOfAnotherFirstMethodAreNotCompared) {
+  SyntheticResult base, other, reversed;
+  base.methods = other.methods = {"certified", "nearest"};
+  reversed.methods = {"nearest", "certified"};
+  base.more = {{"/summary/true_lmd_count_median", {2}}};
+  other.more = reversed.more = {{"/summary/true_lmd_count_median", {1}}};
+  EXPECT_EQ(differences(base, other).size(), 1U);
+  EXPECT_THAT(differences(base, reversed), IsEmpty());
+}
+
+/// What a run is asked to keep to changes none of its numbers.
+TEST_F(ExactDifferences, LimitsAreNoSetting) {
+  SyntheticResult limited;
+  limited.patch = R"({"limits": {"late_frames": 5}})";
+  EXPECT_THAT(settings({}, limited), IsEmpty());
+}
+
 TEST_F(ExactDifferences, OtherExperimentsAndInputsAreNamed) {
   SyntheticResult force, mesh, more;
   force.cutoff = 0.02;

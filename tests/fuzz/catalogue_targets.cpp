@@ -4,8 +4,9 @@
 #include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/manifest.h>
+#include <lmdbench/catalogue/obj_file.h>
 #include <lmdbench/catalogue/off_file.h>
-#include <lmdbench/catalogue/ply_check.h>
+#include <lmdbench/catalogue/ply_file.h>
 #include <lmdbench/catalogue/shape_recipe.h>
 #include <lmdbench/mesh/surface.h>
 #include <lmdbench/mesh/validity.h>
@@ -47,25 +48,13 @@ std::optional<std::string> broken_off(std::string_view bytes) {
 }
 
 std::optional<std::string> broken_ply(std::string_view bytes) {
-  return broken_unless_refused("fuzz.ply", [&]() -> std::string {
-    check_ply(bytes, "fuzz.ply");
-    return {};
-  });
+  return broken_unless_refused("fuzz.ply",
+                               [&]() -> std::string { return broken_mesh(parse_ply(bytes, "fuzz.ply")); });
 }
 
 std::optional<std::string> broken_obj(std::string_view bytes) {
-  return broken_unless_refused("fuzz.obj", [&]() -> std::string {
-    const std::string text = without_materials(bytes);
-    check_obj(text, "fuzz.obj");
-    if (text.size() != bytes.size()) return "bytes have moved";
-    bool comment = false;
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-      comment = bytes[i] != '\n' && (comment || bytes[i] == '#');
-      const bool left_out = text[i] == '#' ? bytes[i] != '\n' : text[i] == ' ' && comment;
-      if (text[i] != bytes[i] && !left_out) return "lines have changed";
-    }
-    return without_materials(text) == text ? "" : "not all lines were found";
-  });
+  return broken_unless_refused("fuzz.obj",
+                               [&]() -> std::string { return broken_mesh(parse_obj(bytes, "fuzz.obj")); });
 }
 
 std::optional<std::string> broken_import(std::string_view bytes) {

@@ -14,6 +14,7 @@ namespace lmdbench {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -33,6 +34,7 @@ RunSummary summary() {
     method.frames_late = 3;
   }
   result.methods[0].recall = 0.1;
+  result.fcl_frames = 100;
   result.fcl_exceptions = {{"original", 5}};
   return result;
 }
@@ -55,6 +57,10 @@ TEST(Acceptance, WhatWasNotMeasuredBreaksItsLimitAndSaysSo) {
   unmeasured.methods[1].recall = UNSET;
   EXPECT_THAT(broken_limits(with_limits(R"({"recall": 0.05})").acceptance, unmeasured),
               ElementsAre("improved: recall is not measured, the experiment wants at least 0.05"));
+  unmeasured.fcl_frames = 0;
+  EXPECT_THAT(
+      broken_limits(with_limits(R"({"fcl_disagreements": 0})").acceptance, unmeasured),
+      Contains("improved: number of disagreements with FCL is not measured, the experiment wants at most 0"));
 }
 
 TEST(Acceptance, AWrongNearestDistanceBreaksWhateverIsLimited) {

@@ -39,6 +39,13 @@ TEST(Cleanliness, TellsAmplitudeAndFrequency) {
   EXPECT_NEAR(judged.amplitude_m, 1e-4 / std::numbers::sqrt2, 1e-8) << "the mean place does not count";
 }
 
+TEST(Cleanliness, ADeviceThatStopsWhereItTurnsBackSwingsAsOften) {
+  Swing sticking = swing(0.0);
+  for (Vec3& velocity : sticking.velocity_W)
+    if (std::abs(velocity.x()) < 3e-5) velocity.setZero();
+  EXPECT_NEAR(judge(sticking).frequency_hz, 50.0, 0.5);
+}
+
 TEST(Cleanliness, BuzzingForceAloneIsUnclean) {
   Swing buzzing = swing(-0.01);
   for (std::size_t n = 0; n < buzzing.force_W.size(); ++n)

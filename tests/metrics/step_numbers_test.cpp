@@ -60,7 +60,7 @@ Judged blind_in(const PreparedRun& run, const std::vector<std::size_t>& blind,
   frames.pop_back();
   judged.numbers =
       count_steps(record, ForceLaw::LINEAR, frames,
-                  compare_with_truth(frames, record, ForceLaw::LINEAR, run.scene()), run, run, in_contact);
+                  compare_with_truth(frames, record, ForceLaw::LINEAR, &run.scene()), run, run, in_contact);
   return judged;
 }
 

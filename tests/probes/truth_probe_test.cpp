@@ -79,7 +79,7 @@ TEST(TruthProbe, APerfectSetHasNoError) {
   const MethodRecord record =
       record_of({truth[0].lmds, truth[1].lmds, truth[1].lmds},
                 {truth[0].force[linear], truth[1].force[linear], truth[1].force[linear]});
-  const auto rows = compare_with_truth(truth, record, ForceLaw::LINEAR, scene);
+  const auto rows = compare_with_truth(truth, record, ForceLaw::LINEAR, &scene);
   for (const TruthComparison& row : rows) {
     EXPECT_EQ(row.same.recall(), 1.0);
     EXPECT_EQ(row.same.precision(), 1.0);
@@ -100,13 +100,13 @@ TEST(TruthProbe, ErrorsAreSignedAndUnsetWhereNothingCompares) {
   late[0].distance += 0.003;
   const Vec3 sideways(0.0, truth[0].force[static_cast<std::size_t>(ForceLaw::LINEAR)].x(), 0.0);
   const auto turned =
-      compare_with_truth(truth, record_of({late, {}}, {sideways, Vec3::Zero()}), ForceLaw::LINEAR, scene);
+      compare_with_truth(truth, record_of({late, {}}, {sideways, Vec3::Zero()}), ForceLaw::LINEAR, &scene);
   EXPECT_NEAR(turned[0].minimum_distance_error, 0.003, 1e-12);
   EXPECT_NEAR(turned[0].force_angle_error, std::numbers::pi / 2.0, 1e-6);
   EXPECT_NEAR(turned[0].force_error, std::numbers::sqrt2 * sideways.y(), 1e-6);
 
   const auto lost =
-      compare_with_truth(truth, record_of({{}, {}}, {Vec3::Zero(), Vec3::Zero()}), ForceLaw::LINEAR, scene);
+      compare_with_truth(truth, record_of({{}, {}}, {Vec3::Zero(), Vec3::Zero()}), ForceLaw::LINEAR, &scene);
   EXPECT_EQ(lost[0].same.recall(), 0.0);
   EXPECT_TRUE(std::isnan(lost[0].same.precision()));
   EXPECT_TRUE(std::isnan(lost[0].minimum_distance_error));
@@ -127,7 +127,7 @@ TEST(TruthProbe, WhereTrianglesIntersectNoForceIsTheTrueOne) {
   EXPECT_TRUE(std::isnan(truth[1].force_jump[linear]));
   const auto rows = compare_with_truth(
       truth, record_of({truth[0].lmds, truth[1].lmds, truth[0].lmds}, {3, Vec3(Vec3::UnitX())}),
-      ForceLaw::LINEAR, scene);
+      ForceLaw::LINEAR, &scene);
   EXPECT_NEAR(rows[0].force_error, 1.0 - truth[0].force[linear].x(), 1e-6);
   EXPECT_TRUE(std::isnan(rows[1].force_error)) << rows[1].force_error;
   EXPECT_TRUE(std::isnan(rows[1].force_angle_error)) << rows[1].force_angle_error;

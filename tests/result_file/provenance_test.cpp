@@ -25,7 +25,7 @@ TEST(Provenance, IdentifiesTheRun) {
   const std::string experiment = R"({"name": "hard", "cutoff": 0.001})";
   ResultWriter writer(directory / "a.h5");
   write_provenance(writer, {"lmdbench", "run", "hard.json"}, experiment, R"({"probes": []})",
-                   {{"path", directory / "path.tum", sha256_of_text("abc"), 3}});
+                   {{"path", directory / "path.tum", sha256_of_text("abc"), 3}}, machine_info());
   writer.commit();
 
   const OpenResult result(directory / "a.h5");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <support/source_directory.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,13 @@ TEST(StabilityMap, OnlyMethodsThatTrackHaveAges) {
   EXPECT_EQ(found[1].age_frames, 20);
   EXPECT_EQ(found[1].method, "improved");
   EXPECT_EQ(found[2].method, "certified");
+}
+
+/// At 50 Hz there is nothing above 30 Hz that could be told.
+TEST(StabilityMap, ASlowRateHasNoForceAbove30Hz) {
+  const auto found = runs({{50.0}, {0}, 1, 50}, {CERTIFIED, "/frame_rate_hz=50"});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(std::isnan(found[0].force_above_30_hz_n));
 }
 
 TEST(StabilityMap, StopsWhenAskedAndRefusesWhatCannotShake) {

@@ -128,6 +128,19 @@ TEST(StabilitySearch, DeviceThatClipsFirstSaysSo) {
   EXPECT_NEAR(row.critical_stiffness_n_per_m, 7.9 / 0.01102, 0.01 * 7.9 / 0.01102);
 }
 
+/// However stiff the file's contact: the search varies it.
+TEST(StabilitySearch, AFileWhoseForceTheDeviceClipsIsSearchedDownwards) {
+  const auto boundary = [](double force) {
+    return search(pressed({"/device=phantom-desktop", "/loop/friction_n=0", "/loop/resolution_m=0",
+                           "/loop/damping_n_s_per_m=0.8", fmt::format("/force/maximum_force_n={}", force)}));
+  };
+  const StabilityRow soft = boundary(5.0), hard = boundary(20000.0);
+  EXPECT_GT(soft.critical_stiffness_n_per_m, 100.0);
+  EXPECT_EQ(hard.clean_until, soft.clean_until);
+  EXPECT_NEAR(hard.critical_stiffness_n_per_m, soft.critical_stiffness_n_per_m,
+              2e-3 * soft.critical_stiffness_n_per_m);
+}
+
 TEST(StabilitySearch, DeviceThatClipsTheTorqueFirstSaysSo) {
   // 0.188 N m at most, 50 mm beside the held point and 11 mm deep: 341 N/m, less than the boundary
   // and than 8.5 N give. The hand's spring keeps the lever from rolling over the tip.

@@ -91,6 +91,9 @@ TEST_F(LoadSweep, WhatChangesTheTruthMakesProblemsApart) {
           R"(, "axes": [{"/driver/search_every_frames": [20, 50]}, {"/method/visibility": ["off", "orthogonal"]}]})"),
       ElementsAre("shapes", "shapes", "shapes", "shapes"))
       << "a schedule and a method's options are no other question";
+  EXPECT_THAT(problems(method + R"(, "axes": [{"/plan/repeated_pose": ["off", "auto"]}]})"),
+              ElementsAre("shapes", "shapes"))
+      << "nor are the plan's rules, which change no bit";
   EXPECT_THAT(
       problems(method + R"(, "axes": [{"/force/sharpness": [1, 2]}, {"/moving/mesh": ["blob", "sphere"]}]})"),
       ElementsAre(

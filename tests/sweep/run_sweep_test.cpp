@@ -154,6 +154,14 @@ TEST_F(RunSweep, JudgesAStandInByTheMeshThatItStandsFor) {
   EXPECT_GT(result.points[2].number("force_error_rms_n"), 0.0) << "exact on the wrong mesh";
 }
 
+/// Its features have numbers that the truth's mesh does not have.
+TEST_F(RunSweep, TheMeshOfTruthMayBeTheCoarserOne) {
+  const SweepResult result =
+      run(loaded(R"(, "truth": {"/moving/mesh": "small-blob", "/fixed/0/mesh": "box"})"));
+  EXPECT_EQ(result.points.at(2).failure, "");
+  EXPECT_TRUE(std::isnan(result.points[2].number("recall")));
+}
+
 TEST_F(RunSweep, ReplacesNothingButItsOwn) {
   const Sweep sweep = loaded();
   scratch_.write("out.h5.points.jsonl", "somebody's notes\n");

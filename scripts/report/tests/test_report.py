@@ -29,10 +29,10 @@ from test_sweep import ROWS, write_sweep  # noqa: E402
 
 
 class FakeRow:
-    def __init__(self, label, error, median, p99, late=0):
+    def __init__(self, label, error, median, p99, late=0, wrong=0):
         self.label, self.force_error = label, error
         self.late = late
-        self.numbers = {"frame_time_median_s": median, "frame_time_p99_s": p99}
+        self.numbers = {"frame_time_median_s": median, "frame_time_p99_s": p99, "frames_wrong": wrong}
 
     def number(self, name):
         return self.numbers[name]
@@ -48,7 +48,9 @@ class Answer(Scratch):
         self.assertIn("good leaves the least force error: 10 %", sentence(rows))
 
     def test_prefers_the_faster_of_two_equals(self):
-        self.assertIn("quick", sentence([FakeRow("slow", 0.0, 1e-4, 2e-4), FakeRow("quick", 1e-16, 1e-5, 2e-4)]))
+        rows = [FakeRow("slow", 0.0, 1e-4, 2e-4), FakeRow("quick", 1e-16, 1e-5, 2e-4)]
+        self.assertIn("quick", sentence(rows))
+        self.assertIn("slow", sentence([rows[0], FakeRow("quick", 1e-16, 1e-5, 2e-4, wrong=45)]), "sets of which some are wrong")
 
     def test_says_how_many_frames_are_late(self):
         self.assertIn("3 of its frames are late", sentence([FakeRow("a", 0.0, 1e-5, 1e-4, late=3)]))

@@ -13,7 +13,6 @@
 #include <assimp/Importer.hpp>
 #include <assimp/Logger.hpp>
 #include <assimp/MemoryIOWrapper.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
@@ -36,11 +35,9 @@ constexpr const char* GLTF_REMEDY =
 constexpr const char* FORMAT_REMEDY = "check that it is a mesh file; convert it to OFF, PLY, OBJ or STL";
 constexpr const char* DAMAGED_REMEDY = "the file is damaged: get or export it again";
 
-constexpr std::array<std::string_view, 5> EXTENSIONS{"ply", "stl", "obj", "gltf", "glb"};
+constexpr std::array<std::string_view, 3> EXTENSIONS{"stl", "gltf", "glb"};
 /// Names of their readers in assimp.
-constexpr std::array<std::string_view, 4> READERS{"Stanford Polygon Library (PLY) Importer",
-                                                  "Stereolithography (STL) Importer",
-                                                  "Wavefront Object Importer", "glTF2 Importer"};
+constexpr std::array<std::string_view, 2> READERS{"Stereolithography (STL) Importer", "glTF2 Importer"};
 
 // Keeps assimp silent and remembers its first error: several of its readers log one, guess at the
 // data and go on.
@@ -82,23 +79,20 @@ class AssimpSession {
   ErrorCollector* logger_;
 };
 
-// Shows assimp one file in memory and nothing of the disk. Files that it refers to do not exist,
-// except an empty material library, without which the OBJ reader complains.
+// Shows assimp one file in memory and nothing of the disk. Files that it refers to do not exist.
 class OneFile final : public Assimp::IOSystem {
  public:
   OneFile(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
-  bool Exists(const char* file) const override { return name_ == file || is_material(file); }
+  bool Exists(const char* file) const override { return name_ == file; }
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    const std::string_view content = name_ == file ? bytes_ : std::string_view{};
     if (!Exists(file) || std::string_view(mode).find('r') == std::string_view::npos) return nullptr;
-    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(content.data()), content.size(),
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size(),
                                       false);
   }
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
-  static bool is_material(std::string_view file) { return file.ends_with(".mtl"); }
   std::string name_;
   std::string_view bytes_;
 };
@@ -115,19 +109,11 @@ class SceneMerger {
  public:
   SceneMerger(const aiScene& scene, std::string file) : scene_(scene), file_(std::move(file)) {}
 
-  // Must come before anything else of assimp works on the faces.
   void check_indices() const {
     for (unsigned int m = 0; m < scene_.mNumMeshes; ++m) {
       const aiMesh& mesh = *scene_.mMeshes[m];
       for (unsigned int f = 0; f < mesh.mNumFaces; ++f) {
         const aiFace& face = mesh.mFaces[f];
-        // assimp's time to triangulate a polygon grows with the square of its corners.
-        if (face.mNumIndices > limit_of(Limit::POLYGON_CORNERS))
-          throw InputError(
-              file_, place(m, "face", f),
-              fmt::format("is a polygon of {} corners, above the limit of {}", face.mNumIndices,
-                          limit_of(Limit::POLYGON_CORNERS)),
-              "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
         for (unsigned int k = 0; k < face.mNumIndices; ++k)
           if (face.mIndices[k] >= mesh.mNumVertices)
             throw InputError(
@@ -138,16 +124,6 @@ class SceneMerger {
                 "correct the index or export the mesh again");
       }
     }
-  }
-
-  bool has_polygons() const {
-    for (unsigned int m = 0; m < scene_.mNumMeshes; ++m) {
-      const aiMesh& mesh = *scene_.mMeshes[m];
-      if (std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
-                      [](const aiFace& f) { return f.mNumIndices > 3; }))
-        return true;
-    }
-    return false;
   }
 
   TriangleMesh merge() {
@@ -212,8 +188,8 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   }
   const std::string name = fmt::format("mesh.{}", extension);
   importer.SetIOHandler(new OneFile(name, bytes));  // owned by assimp from here on
-  // No post-processing yet: it aborts the program where a reader left faces without corners
-  // (truncated files), and its clean-up steps would drop or reorder triangles.
+  // No post-processing: it aborts the program where a reader left faces without corners (truncated
+  // files), and its clean-up steps would drop or reorder triangles.
   const aiScene* scene = importer.ReadFile(name, 0);
   // It tells a limit of memory as an error of the file.
   const std::string error = importer.GetErrorString();
@@ -222,14 +198,9 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   if (scene == nullptr)
     throw InputError(file, "", error, says("open referenced file") ? GLTF_REMEDY : FORMAT_REMEDY);
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);
-  SceneMerger(*scene, file).check_indices();
-  if (SceneMerger(*scene, file).has_polygons()) {
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    if (scene == nullptr || !session.first_error().empty())
-      throw InputError(file, "", fmt::format("polygons cannot be cut: {}", session.first_error()),
-                       "triangulate the mesh where it was made");
-  }
-  return SceneMerger(*scene, file).merge();
+  SceneMerger merger(*scene, file);
+  merger.check_indices();
+  return merger.merge();
 }
 
 // First bytes of the child; that many vertices and triangles, or characters, follow.

@@ -10,13 +10,13 @@
 
 namespace lmdbench {
 
-/// Extensions of the formats read through assimp, lower-case: PLY, STL, OBJ, glTF 2. Its fifty
-/// other readers are not used: they guess at damaged files, and several loop or crash on them.
+/// Extensions of the formats read through assimp, lower-case: STL and glTF 2. Its fifty other
+/// readers are not used: they guess at damaged files, and several loop or crash on them.
 std::span<const std::string_view> assimp_extensions();
 
 /// Reads a mesh through assimp in a child process of limited time and memory
 /// (`Limit::IMPORT_SECONDS`, `Limit::IMPORT_BYTES`), because assimp may loop or crash on damaged
-/// files. Opens no file that it refers to (materials, buffers, textures). One import at a time.
+/// files. Opens no file that it refers to (buffers, textures). One import at a time.
 /// @param bytes      the whole file
 /// @param extension  one of `assimp_extensions`
 /// @param file       its name, for messages

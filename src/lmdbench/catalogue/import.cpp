@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/assimp_reader.h>
+#include <lmdbench/catalogue/gltf_check.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/mesh_limits.h>
+#include <lmdbench/catalogue/obj_file.h>
 #include <lmdbench/catalogue/off_file.h>
-#include <lmdbench/catalogue/ply_check.h>
+#include <lmdbench/catalogue/ply_file.h>
 #include <lmdbench/catalogue/stl_check.h>
 #include <lmdbench/mesh/placement.h>
 
@@ -34,19 +36,15 @@ TriangleMesh read_format(const FileContent& content) {
   const std::string extension = extension_of(content.file);
   const std::string_view text = without_byte_order_mark(content.bytes);  // if it is text
   if (extension == "off") return parse_off(text, file);
+  if (extension == "obj") return parse_obj(text, file);
+  if (extension == "ply") return parse_ply(text, file);
   const auto known = assimp_extensions();
   if (std::find(known.begin(), known.end(), extension) == known.end())
-    throw InputError(
-        file, "", fmt::format("'{}' is no extension of a mesh format that is read", extension),
-        fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, {})", fmt::join(known, ", ")));
-  if (extension == "ply")
-    return read_with_assimp(with_its_first_byte(text, check_ply(text, file)), extension, file);
-  if (extension == "obj") {
-    const std::string plain = without_materials(text);
-    check_obj(plain, file);
-    return read_with_assimp(plain, extension, file);
-  }
+    throw InputError(file, "", fmt::format("'{}' is no extension of a mesh format that is read", extension),
+                     fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, obj, ply, {})",
+                                 fmt::join(known, ", ")));
   if (extension == "stl") return read_with_assimp(checked_stl(content.bytes, file), extension, file);
+  check_gltf(content.bytes, file);
   return read_with_assimp(content.bytes, extension, file);
 }
 

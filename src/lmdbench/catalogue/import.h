@@ -9,8 +9,8 @@
 
 namespace lmdbench {
 
-/// Reads a mesh file: PLY, OBJ, STL and glTF 2 through assimp in a child process
-/// (`read_with_assimp`), OFF by `parse_off`.
+/// Reads a mesh file: OFF, PLY and OBJ by `parse_off`, `parse_ply` and `parse_obj`, STL and glTF 2
+/// through assimp in a child process (`read_with_assimp`).
 /// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are
 ///   turned right side out.
 /// - Vertices with bit-identical positions are welded (0 and -0 count as one): formats such as STL
@@ -22,8 +22,8 @@ namespace lmdbench {
 ///   skipped.
 /// - Vertices keep the file's order too. Those without triangles are dropped: they are not on the
 ///   surface and must not count for its size.
-/// - Coordinates stay as they are; no unit is guessed. All formats but OFF are read in single
-///   precision (assimp).
+/// - Coordinates stay as they are; no unit is guessed. OFF is read in double precision, PLY in that
+///   of its header, all else in single precision.
 /// @throws InputError when the file cannot be read, holds no triangle, a coordinate that is not
 ///   finite or an index out of range; it names the vertex or triangle, counted from 0
 TriangleMesh import_mesh(const std::filesystem::path& file);

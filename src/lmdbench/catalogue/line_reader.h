@@ -16,6 +16,13 @@
 
 namespace lmdbench {
 
+/// The remedy for a mesh file that is shorter than its header says.
+inline constexpr const char* CUT_SHORT =
+    "the file may be cut short: get it again, or correct the counts in its header";
+
+/// The remedy for one that is longer.
+inline constexpr const char* TOO_LONG = "correct the counts in its header, or get the file again";
+
 /// Lines of a mesh in text, without comments (# to the end) and blank lines, and their numbers.
 class LineReader {
  public:
@@ -67,6 +74,9 @@ class LineReader {
   bool begins_with(std::string_view start) const { return line_.starts_with(start); }
   bool ends_with(std::string_view end) const { return line_.ends_with(end); }
   bool at_line_end() const { return line_.empty(); }
+  /// What of the line was not read yet.
+  std::string_view rest() const { return line_; }
+  std::size_t line_number() const { return line_number_; }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "correct the line") const {
     throw InputError(file_, fmt::format("line {}", line_number_), problem, remedy);

@@ -2,74 +2,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/obj_file.h>
-#include <lmdbench/catalogue/polygon_fan.h>
+#include <lmdbench/catalogue/polygon.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace lmdbench {
 namespace {
 
-/// Keywords of skipped lines.
-constexpr std::array<std::string_view, 11> LEFT_OUT{"vn", "vt", "vp",     "g",      "o", "s",
-                                                    "l",  "p",  "mtllib", "usemtl", "mg"};
+/// Keywords of curves and surfaces that are no polygons.
+constexpr std::array<std::string_view, 14> FREE_FORM{"cstype", "deg",  "bmat", "step", "curv",
+                                                     "curv2",  "surf", "parm", "trim", "hole",
+                                                     "scrv",   "sp",   "con",  "call"};
 
-Vec3 read_position(LineReader& lines) {
-  Vec3 position;
-  for (int axis = 0; axis < 3; ++axis)
-    position[axis] = static_cast<double>(static_cast<float>(lines.number<double>("a coordinate")));
-  if (!lines.at_line_end()) {
-    const double weight = lines.number<double>("a weight or colour");
-    if (lines.at_line_end()) position /= weight;  // else it is the first part of a colour
+/// Calls back for each vertex ("v") or face ("f"), with a reader behind the keyword. Lines that a
+/// backslash continues are joined.
+void for_each_line(std::string_view text, const std::string& file, const auto& take) {
+  LineReader lines(file, text);
+  const auto continues = [&] { return lines.ends_with("\\") || lines.ends_with("\\\r"); };
+  std::string joined;
+  while (lines.next_line()) {
+    const std::string_view word = lines.word();
+    if (std::ranges::find(FREE_FORM, word) != FREE_FORM.end())
+      lines.fail(fmt::format("'{}' is part of a free-form curve or surface", word),
+                 "export the mesh as polygons");
+    if (word != "v" && word != "f") continue;
+    if (!continues()) {
+      take(word, lines);
+      continue;
+    }
+    joined.clear();
+    while (continues()) {
+      joined.append(lines.rest().substr(0, lines.rest().rfind('\\'))).append(" ");
+      if (!lines.next_line()) lines.fail("the file ends in a line that goes on", CUT_SHORT);
+    }
+    joined.append(lines.rest());
+    LineReader line(file, joined, lines.line_number() - 1);
+    if (!line.next_line()) line.fail("nothing behind its keyword");
+    take(word, line);
   }
-  if (!position.allFinite()) lines.fail("a coordinate is not finite", "correct or remove it");
+}
+
+Vec3 read_position(LineReader& line) {
+  Vec3 position = Vec3::Zero();
+  int numbers = 0;
+  for (; numbers < 3 || !line.at_line_end(); ++numbers) {
+    const auto number = line.number<double>("a coordinate");
+    if (numbers < 3) position[numbers] = static_cast<double>(static_cast<float>(number));
+  }
+  // A weight or a colour may follow.
+  if (numbers != 3 && numbers != 4 && numbers != 6) line.fail(fmt::format("a vertex of {} numbers", numbers));
   return position;
 }
 
-/// The position that "7", "7/1", "7//3" or "-1" (the last one so far) refers to.
-const Vec3& read_corner(const LineReader& lines, std::string_view word, const std::vector<Vec3>& positions) {
-  const auto count = static_cast<std::int64_t>(positions.size());
-  const auto named = lines.number<std::int64_t>("a vertex index", word.substr(0, word.find('/')));
-  const std::int64_t index = named < 0 ? count + named : named - 1;
-  if (index < 0 || index >= count)
-    lines.fail(fmt::format("a face names vertex {}, but {} vertices stand before it", named, count),
-               "vertices are counted from 1, backwards from -1; correct the index");
-  return positions[static_cast<std::size_t>(index)];
+/// The vertex that "7", "7/1", "7//3" or "-1" (the last one so far) names.
+std::int32_t read_corner(LineReader& line, std::int64_t before, const std::vector<Vec3>& vertices) {
+  constexpr const char* COUNTED = "vertices are counted from 1, backwards from -1; correct the index";
+  const std::string_view word = line.word();
+  const auto named = line.number<std::int64_t>("a vertex index", word.substr(0, word.find('/')));
+  if (named == 0 || -named > before)
+    line.fail(fmt::format("a face names vertex {}, but {} vertices stand before it", named, before), COUNTED);
+  if (named > std::ssize(vertices))  // it may come later
+    line.fail(fmt::format("a face names vertex {}, but the file has {}", named, vertices.size()), COUNTED);
+  const std::int64_t index = named < 0 ? before + named : named - 1;
+  if (!vertices[static_cast<std::size_t>(index)].allFinite())
+    line.fail(fmt::format("vertex {} has a coordinate that is not finite", index + 1),
+              "correct or remove it");
+  return static_cast<std::int32_t>(index);
 }
 
 }  // namespace
 
 TriangleMesh parse_obj(std::string_view text, const std::string& file) {
-  LineReader lines(file, text);
   TriangleMesh mesh;
-  std::vector<Vec3> positions, corners;
-  std::vector<std::int32_t> polygon;
-  while (lines.next_line()) {
-    if (lines.ends_with("\\") || lines.ends_with("\\\r"))
-      lines.fail("the line is continued on the next", "join the two lines");
-    const std::string_view keyword = lines.word();
+  for_each_line(text, file, [&](std::string_view keyword, LineReader& line) {
+    if (keyword == "v") mesh.vertices.push_back(read_position(line));
+  });
+  std::int64_t before = 0;
+  std::vector<std::int32_t> corners;
+  for_each_line(text, file, [&](std::string_view keyword, LineReader& line) {
     if (keyword == "v") {
-      positions.push_back(read_position(lines));
-      continue;
-    }
-    if (keyword != "f") {
-      if (std::find(LEFT_OUT.begin(), LEFT_OUT.end(), keyword) == LEFT_OUT.end())
-        lines.fail(fmt::format("'{}' is no keyword of a polygon mesh", keyword.substr(0, 40)),
-                   "convert the file to OFF");
-      continue;
+      ++before;
+      return;
     }
     corners.clear();
-    while (!lines.at_line_end()) corners.push_back(read_corner(lines, lines.word(), positions));
-    if (corners.size() < 3) lines.fail(fmt::format("a face of {} corners", corners.size()));
-    // Every face has its own corners, as in assimp: import welds them in the order of use.
-    polygon.resize(corners.size());
-    std::iota(polygon.begin(), polygon.end(), static_cast<std::int32_t>(mesh.vertices.size()));
-    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
-    add_polygon(polygon, lines, mesh);
-  }
+    while (!line.at_line_end()) corners.push_back(read_corner(line, before, mesh.vertices));
+    if (corners.size() < 3) return;
+    if (const std::optional<PolygonFault> fault = add_polygon(corners, mesh))
+      line.fail(fault->problem, fault->remedy);
+  });
   return mesh;
 }
 

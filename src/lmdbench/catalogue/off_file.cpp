@@ -5,14 +5,14 @@
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/catalogue/line_reader.h>
 #include <lmdbench/catalogue/off_file.h>
-#include <lmdbench/catalogue/ply_check.h>
-#include <lmdbench/catalogue/polygon_fan.h>
+#include <lmdbench/catalogue/polygon.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,7 +53,9 @@ void read_faces(LineReader& lines, std::int64_t count, TriangleMesh& mesh) {
                    "vertices are counted from 0; correct the index");
       corners.push_back(static_cast<std::int32_t>(corner));
     }
-    if (corner_count >= 3) add_polygon(corners, lines, mesh);
+    if (corner_count < 3) continue;
+    if (const std::optional<PolygonFault> fault = add_polygon(corners, mesh))
+      lines.fail(fault->problem, fault->remedy);
   }
 }
 

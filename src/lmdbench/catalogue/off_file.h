@@ -12,8 +12,8 @@ namespace lmdbench {
 
 /// Reads an OFF text file line by line, in double precision. Own code, because assimp (5.2.5) reads
 /// OFF in single precision, takes a negative index for 0, clamps indices that are out of range and
-/// aborts the program on a truncated file. Polygons with more than three corners become fans round
-/// their first corner. Further columns (normals, colours, texture coordinates) are ignored.
+/// aborts the program on a truncated file. Polygons are cut into triangles
+/// (`add_polygon`). Further columns (normals, colours, texture coordinates) are ignored.
 /// @throws InputError naming the line; also for binary OFF and above a limit
 TriangleMesh read_off(const std::filesystem::path& file);
 

@@ -3,7 +3,6 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/input_file.h>
 #include <lmdbench/catalogue/line_reader.h>
-#include <lmdbench/catalogue/ply_check.h>
 #include <lmdbench/catalogue/stl_check.h>
 
 #include <boost/algorithm/string/case_conv.hpp>

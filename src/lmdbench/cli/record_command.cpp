@@ -58,7 +58,7 @@ void add_record_command(CLI::App& app) {
       ->required();
   command->add_option("--out,-o", options->out, "path to write (TUM trajectory)")->required();
   command->add_option("--every", options->every, "keep every so many-th frame; all of them without it")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}));
   command->callback([options] { record(*options); });
 }
 

@@ -338,10 +338,9 @@ class DatasetPair {
 };
 
 /// Label of the first method of the experiment.
-std::string first_method(const ResultReader& file) {
-  for (const std::string& label : file.groups("/methods"))
-    if (file.integer_attribute("/methods/" + label, "method_order") == 0) return label;
-  return "";
+std::string first_method(const nlohmann::json& experiment) {
+  const nlohmann::json first = setting(experiment, "/methods/0");
+  return first.is_object() ? first.value("label", first.value("name", "")) : "";
 }
 
 /// Two results whose groups are compared.
@@ -352,7 +351,7 @@ struct Sides {
   nlohmann::json candidate_experiment = recorded_experiment(candidate);
   bool same_steps = same_true_steps(base, candidate);
   bool same_methods = base.groups("/methods") == candidate.groups("/methods");
-  bool same_first_method = first_method(base) == first_method(candidate);
+  bool same_first_method = first_method(base_experiment) == first_method(candidate_experiment);
 
   bool other(const std::string& pointer) const {
     return setting(base_experiment, pointer) != setting(candidate_experiment, pointer);

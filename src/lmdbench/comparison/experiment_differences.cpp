@@ -64,7 +64,7 @@ void tell_by_kind(nlohmann::json& experiment) {
 /// The part of the experiment that decides results and times, with one form for each scene.
 nlohmann::json deciding_part(const ResultReader& file) {
   nlohmann::json experiment = experiment_of(file);
-  for (const char* key : {"$schema", "name", "title", "mesh_folder", "probes", "record"})
+  for (const char* key : {"$schema", "name", "title", "mesh_folder", "probes", "record", "limits"})
     experiment.erase(key);
   tell_by_kind(experiment);
   // Of a file its SHA-256 is compared, not its name and place: of a mesh with the scene, of a path

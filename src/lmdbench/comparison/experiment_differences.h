@@ -12,9 +12,9 @@
 namespace lmdbench {
 
 /// Differences of two results' experiments: the resolved experiment as JSON (methods by label,
-/// scenes in one form; no names, titles, places of files, probes, recording, repetitions, which
-/// change no result) and SHA-256 of every input. A key of one side alone is a difference only if it
-/// has no default: versions have other options.
+/// scenes in one form; no names, titles, places of files, probes, recording, limits, repetitions,
+/// which change no result) and SHA-256 of every input. A key of one side alone is a difference only
+/// if it has no default: versions have other options.
 std::vector<Difference> experiment_differences(const ResultReader& base, const ResultReader& candidate);
 
 /// What one of the two was asked to probe or to record otherwise: names are JSON pointers.

@@ -15,7 +15,7 @@
 namespace lmdbench {
 namespace {
 
-/// Sum of the columns' least values; NaN where a column was never measured. 0 for no columns.
+/// Sum of the columns' least values, without those that were never measured. 0 for no columns.
 double sum_of_minima(const std::vector<double>& times, std::size_t first_row, std::size_t end_row,
                      std::size_t columns) {
   double sum = 0.0;

@@ -37,9 +37,11 @@ std::vector<std::string> broken_limits(const Acceptance& acceptance, const RunSu
             method.frames_late <= static_cast<double>(*acceptance.late_frames), "at most");
     if (acceptance.fcl_disagreements) {
       const auto found = summary.fcl_exceptions.find(method.label);
-      const std::int64_t count = found == summary.fcl_exceptions.end() ? 0 : found->second;
+      const double count = summary.fcl_frames == 0                 ? UNSET
+                           : found == summary.fcl_exceptions.end() ? 0.0
+                                                                   : static_cast<double>(found->second);
       check("number of disagreements with FCL", count, *acceptance.fcl_disagreements,
-            count <= *acceptance.fcl_disagreements, "at most");
+            count <= static_cast<double>(*acceptance.fcl_disagreements), "at most");
     }
   }
   return broken;

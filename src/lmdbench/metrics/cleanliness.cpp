@@ -45,9 +45,13 @@ double frequency(std::span<const Vec3> velocity, double period) {
   int axis = 0;
   spread.diagonal().maxCoeff(&axis);
   std::vector<double> changes;  // in frames
+  // With friction the device may stop for some frames where it turns back.
+  std::size_t last = 0;
   for (std::size_t i = 1; i < velocity.size(); ++i) {
-    const double before = velocity[i - 1][axis], after = velocity[i][axis];
-    if (before * after < 0.0) changes.push_back(static_cast<double>(i) - after / (after - before));
+    const double before = velocity[last][axis], after = velocity[i][axis];
+    if (before * after < 0.0)
+      changes.push_back(static_cast<double>(i) - static_cast<double>(i - last) * after / (after - before));
+    if (after != 0.0 || before == 0.0) last = i;
   }
   if (changes.size() < 2) return 0.0;
   return static_cast<double>(changes.size() - 1) / (2.0 * period * (changes.back() - changes.front()));

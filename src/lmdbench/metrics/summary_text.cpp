@@ -157,9 +157,11 @@ std::string duration(double seconds) {
   return shown(seconds, unit->first, unit->second);
 }
 
-/// In a closed loop every device goes its own way, and meets the mesh less often.
+/// In a closed loop every device goes its own way, and meets the mesh less often; profiles may have
+/// cutoffs of their own.
 const char* whose_contact(const RunSummary& summary) {
-  return summary.closed_loop ? " on the path that the hand means" : "";
+  if (summary.closed_loop) return " on the path that the hand means";
+  return summary.profiles.empty() ? "" : " of the first profile";
 }
 
 }  // namespace

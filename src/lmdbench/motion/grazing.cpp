@@ -121,7 +121,7 @@ GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double hapt
   double smallest = 0.0;
   std::optional<GrazingPath> best;
   double most = 0.0;
-  SeedProgress seeds(progress, RICH_SEEDS);
+  SeedProgress seeds(progress, GRAZING_SEEDS);
   for (std::uint64_t seed = 1; seed <= (best ? RICH_SEEDS : GRAZING_SEEDS); ++seed) {
     std::optional<GrazingPath> made = path_of_seed(scene, cutoff, haptic_rate, seed, seeds, smallest);
     if (!made) continue;

@@ -52,7 +52,7 @@ inline constexpr double RICH_CONTACTS = 2.0;
 
 /// The first grazing path with RICH_CONTACTS; if none, the one with the most of RICH_SEEDS.
 /// @param contacts  counts a path's contacts; called once for every path that grazes
-/// @param progress  over all RICH_SEEDS, never going back; it ends early where fewer are enough
+/// @param progress  over all GRAZING_SEEDS, never going back; it ends early where fewer are enough
 /// @throws InputError as `grazing_path`
 GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double haptic_rate,
                               const std::function<double(const Path&)>& contacts,

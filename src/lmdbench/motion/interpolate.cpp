@@ -145,8 +145,8 @@ void refuse_too_many_frames(const PathInterpolator& interpolator, double rate,
   if (frames < limit) return;  // false for NaN, too
   throw InputError(
       file, "",
-      fmt::format("lasts {:g} s: {:g} frames at {:g} Hz, above the limit of {}", duration, frames, rate,
-                  limit_of(Limit::FRAMES)),
+      fmt::format("lasts {:g} s: {:.15g} frames at {:g} Hz, above the limit of {}", duration,
+                  std::floor(frames) + 1.0, rate, limit_of(Limit::FRAMES)),
       "give times in seconds, a lower frame rate or fewer frames, or " + raise_remedy(Limit::FRAMES));
 }
 

@@ -227,9 +227,16 @@ void write_contact(NewExperiment& result, OrderedJson& json, const Scene& scene,
 }  // namespace
 
 NewExperiment new_experiment(const std::string& moving, const std::string& fixed,
-                             const std::filesystem::path& folder, const std::filesystem::path& mesh_folder,
-                             const Progress& progress, const InitChoices& chosen) {
+                             const std::filesystem::path& given_folder,
+                             const std::filesystem::path& mesh_folder, const Progress& progress,
+                             const InitChoices& chosen) {
   NewExperiment result;
+  // Names of meshes lead back through "..", which links would turn elsewhere.
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(given_folder);
+  const std::filesystem::path folder =
+      canonical == std::filesystem::absolute(given_folder / "").lexically_normal().parent_path()
+          ? given_folder
+          : canonical;
   for (const std::string& mesh : {moving, fixed})
     if (!is_utf8(mesh))
       throw UsageError(printable(mesh), "", "is no UTF-8 name, which an experiment cannot hold",

@@ -108,7 +108,7 @@ std::int64_t TruthFrame::contact_without_direction() const {
 
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
                                                 const MethodRecord& record, ForceLaw law,
-                                                const Scene& scene) {
+                                                const Scene* scene) {
   std::vector<TruthComparison> comparisons;
   for (const TruthFrame& here : truth) {
     const LmdSet& lmds = record.lmds.at(here.frame);
@@ -116,8 +116,10 @@ std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& t
     const FrameRecord &frame = record.frames[at], &next = record.frames[at + 1];
     const Vec3& true_force = here.force[static_cast<std::size_t>(law)];
     TruthComparison comparison;
-    comparison.same = agreement(here.lmds, lmds, Match::SAME_FEATURES, scene);
-    comparison.neighbours = agreement(here.lmds, lmds, Match::NEIGHBOURING_FEATURES, scene);
+    if (scene != nullptr) {
+      comparison.same = agreement(here.lmds, lmds, Match::SAME_FEATURES, *scene);
+      comparison.neighbours = agreement(here.lmds, lmds, Match::NEIGHBOURING_FEATURES, *scene);
+    }
     comparison.minimum_distance_error = minimum_distance(lmds) - minimum_distance(here.lmds);
     comparison.force_error = (frame.force - true_force).norm();
     comparison.force_angle_error = force_angle(frame.force, true_force);
@@ -181,7 +183,7 @@ std::unique_ptr<ProbeFindings> find_truth(const ProbedTrack& track) {
     const ForceLaw law = track.methods[i].profile.law;
     const MethodDescription& method = method_description(track.choices[i]->name);
     std::vector<TruthComparison>& rows =
-        found->comparisons.emplace_back(compare_with_truth(found->frames, record, law, track.profile.scene));
+        found->comparisons.emplace_back(compare_with_truth(found->frames, record, law, &track.profile.scene));
     if (method.promise == Promise::FORCE_ONLY)
       for (TruthComparison& row : rows) row.same = row.neighbours = {};
     // Truth of every frame comes from methods that promise the complete set and keep the promise.

@@ -46,7 +46,7 @@ struct TruthFrame {
 
 /// One method against one TruthFrame. NaN where a quantity does not exist.
 struct TruthComparison {
-  Agreement same;                         ///< Counts the same features.
+  Agreement same;                         ///< Counts the same features; empty of other meshes.
   Agreement neighbours;                   ///< Neighbouring features count, too.
   double minimum_distance_error = UNSET;  ///< Method's minus true [m]; NaN without both.
   double force_error = UNSET;             ///< Length of the difference [N].
@@ -99,9 +99,10 @@ std::vector<TruthFrame> probe_truth(const Scene& scene, const DriverInput& input
                                     const Progress& progress, const std::vector<bool>* in_contact = nullptr,
                                     bool reuse_repeated = true);
 
+/// @param scene  of both; null where truth is of other meshes, whose features are not the method's
 /// @pre the record has the LMD sets of the truth's frames
 std::vector<TruthComparison> compare_with_truth(const std::vector<TruthFrame>& truth,
-                                                const MethodRecord& record, ForceLaw law, const Scene& scene);
+                                                const MethodRecord& record, ForceLaw law, const Scene* scene);
 
 /// Truth in every frame. A probe on a stride sees every tenth event, so methods look worse, or
 /// better, than they are. `certified` gives the true set in microseconds; `exhaustive`, which

@@ -32,10 +32,11 @@ RealtimeRecorder::RealtimeRecorder(RecordQueues& queues, const std::string& labe
     : queues_(queues),
       frames_(frames),
       closed_loop_(closed_loop),
-      start_(start),
       kept_(kept),
       keeper_(keeper),
       method_(method) {
+  held_.pose = start;
+  held_.loop = at_rest(start);
   record.label = clock.label = label;
   record.repetitions.resize(1);
   record.frames.reserve(static_cast<std::size_t>(frames));
@@ -72,7 +73,9 @@ void RealtimeRecorder::take(const TickRecord& tick) {
   clock.search_age.push_back(tick.search_age);
   clock.tick_frame.push_back(frame);
   take_list(tick);
-  // A device faster than the grid gives a period two ticks: the first one is the frame.
+  held_ = tick;
+  // A device faster than the grid gives a period two ticks: the first one is the frame, and what is
+  // held from there on is the second one's.
   if (static_cast<std::int64_t>(record.frames.size()) > frame) return;
   record.frames.push_back(tick.frame);
   note_times(tick.update_s, tick.following_s);
@@ -103,14 +106,13 @@ void RealtimeRecorder::hold_until(std::int64_t frame, FrameSource source) {
   const double period_s = 1e-9 * static_cast<double>(clock.period);
   while (static_cast<std::int64_t>(record.frames.size()) < std::min(frame, frames_)) {
     const auto at = record.frames.size();
-    FrameRecord held = record.frames.empty() ? FrameRecord() : record.frames.back();
-    held.counters = {};
-    held.lmd_age += period_s;
-    record.frames.push_back(held);
+    held_.frame.counters = {};
+    held_.frame.lmd_age += period_s;
+    record.frames.push_back(held_.frame);
     note_times(UNSET, UNSET);
     if (closed_loop_) {
-      record.poses.push_back(record.poses.empty() ? start_ : record.poses.back());
-      record.loop.push_back(record.loop.empty() ? at_rest(start_) : record.loop.back());
+      record.poses.push_back(held_.pose);
+      record.loop.push_back(held_.loop);
     }
     // What the device held is known if the previous tick gave its list.
     if (source == FrameSource::SKIPPED && has_last_list_ && kept_[at] != 0)

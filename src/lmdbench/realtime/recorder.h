@@ -57,12 +57,12 @@ class RealtimeRecorder {
   RecordQueues& queues_;
   std::int64_t frames_;
   bool closed_loop_;
-  Pose start_;
   const std::vector<char>& kept_;
   RunKeeper* keeper_;
   std::size_t method_;
   std::int64_t next_sequence_ = 0;
   std::deque<SearchTurn> waiting_;  ///< Not yet in the record: one a frame.
+  TickRecord held_;                 ///< Frame, pose and loop of the last tick.
   LmdSet last_list_;
   bool has_last_list_ = false;  ///< Of the last tick.
   std::atomic<std::int64_t> done_{0};

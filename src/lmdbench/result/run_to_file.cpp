@@ -11,14 +11,21 @@
 #include <lmdbench/result_file/result_writer.h>
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace lmdbench {
 namespace {
 
-/// Hash of all that decides a run's results, and of the processor that its times belong to.
-std::string fingerprint_of(const Experiment& experiment, const PreparedRun& prepared) {
-  std::string text = version_text() + "\n" + experiment.resolved_json;
-  for (const auto& [name, value] : machine_info())
+using Machine = std::vector<std::pair<std::string, std::string>>;
+
+/// Hash of all that decides a run's results and times: the program's bytes, too, as a version says
+/// nothing of local changes.
+std::string fingerprint_of(const Experiment& experiment, const PreparedRun& prepared,
+                           const Machine& machine) {
+  std::string text = version_text() + "\n" + program_sha256() + "\n" + experiment.resolved_json;
+  for (const auto& [name, value] : machine)
     if (name.starts_with("processor")) text += "\n" + value;
   for (const InputFile& file : prepared.files) text += "\n" + file.sha256;
   for (const MeshNote& mesh : prepared.meshes) text += "\n" + mesh.sha256;
@@ -32,6 +39,7 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
                                  Leftover leftover) {
   refuse_unsafe_output(file, {.what = "result file", .is_ours = &is_own_result}, input_files(experiment),
                        "--out");
+  const Machine machine = machine_info();  // before the run loads it
   ResultWriter writer(file);
   PartFile& part = writer.part();
   if (leftover == Leftover::REFUSE && RunKeeper::measured_frames(part) > 0)
@@ -60,7 +68,7 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
       std::filesystem::current_path(none), std::filesystem::absolute(file, none).parent_path(), none);
   const auto write_head = [&](ResultWriter& to, const RunResult& result) {
     write_provenance(to, argv, experiment.resolved_json, plan_json(result.plan, experiment),
-                     result.prepared.files);
+                     result.prepared.files, machine);
     // Names in the experiment are relative to its folder, its own and the inputs' to the run's.
     to.attribute("/provenance", "experiment_file", experiment.file.string());
     to.attribute("/provenance", "run_folder", run_folder.generic_string());
@@ -70,8 +78,8 @@ RunResult run_experiment_to_file(const Experiment& experiment, const std::filesy
       write_head(to, result);
       write_path(to, result);
     };
-    return std::make_unique<RunKeeper>(part, experiment, frames, fingerprint_of(experiment, result.prepared),
-                                       write);
+    return std::make_unique<RunKeeper>(part, experiment, frames,
+                                       fingerprint_of(experiment, result.prepared, machine), write);
   };
   RunResult result = run_experiment(experiment, progress, make_keeper);
   write_head(writer, result);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/build_info.h>
+#include <lmdbench/base/file_hash.h>
 #include <lmdbench/result_file/provenance.h>
 
 #include <fmt/chrono.h>
@@ -50,7 +51,8 @@ void write_inputs(ResultWriter& writer, const std::vector<InputFile>& inputs) {
 
 void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv,
                       const std::string& experiment_json, const std::string& plan_json,
-                      const std::vector<InputFile>& inputs) {
+                      const std::vector<InputFile>& inputs,
+                      const std::vector<std::pair<std::string, std::string>>& machine) {
   const BuildInfo& build = build_info();
   writer.attribute("/", "format", RESULT_FORMAT);
   writer.attribute("/", "format_version", std::int64_t{RESULT_FORMAT_VERSION});
@@ -66,7 +68,7 @@ void write_provenance(ResultWriter& writer, const std::vector<std::string>& argv
   writer.attribute(group, "build_type", build.build_type);
   writer.attribute(group, "target", build.target);
   for (const auto& [name, version] : build.libraries) writer.attribute(group + "/libraries", name, version);
-  for (const auto& [name, value] : machine_info()) writer.attribute(group + "/machine", name, value);
+  for (const auto& [name, value] : machine) writer.attribute(group + "/machine", name, value);
 
   writer.write({group + "/argv", "1", "command line of the run, argument by argument"}, argv);
   writer.write({group + "/experiment", "1", "the experiment with every default filled in, JSON"},
@@ -228,6 +230,11 @@ std::vector<std::pair<std::string, std::string>> machine_info() {
       {"operating_system", value_of(system, "PRETTY_NAME")},
       {"kernel", named ? fmt::format("{} {} {}", kernel.sysname, kernel.release, kernel.machine) : UNKNOWN},
   };
+}
+
+std::string program_sha256() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  return sha256_of_text(std::string(std::istreambuf_iterator<char>(program), {}));
 }
 
 }  // namespace lmdbench

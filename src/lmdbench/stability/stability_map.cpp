@@ -96,15 +96,21 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const ContactPort
   run.amplitude_m = std::sqrt(spread / static_cast<double>(swing.position_W.size()));
   run.frequency_hz = judge(swing).frequency_hz;
   run.force_mean_n = mean(force);
-  // The filter runs over the whole force, so that it is settled where measuring begins.
-  std::vector<Vec3> all;
-  for (const FrameRecord& frame : record.frames) all.push_back(frame.force);
-  const std::vector<Vec3> high = above_30_hz(all, 1.0 / rate);
-  double sum = 0.0;
-  for (std::size_t i = settled; i < frames; ++i) sum += high[i].squaredNorm();
-  run.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(frames - settled));
+  if (2.0 * HIGH_PASS_HZ < rate) {
+    // The filter runs over the whole force, so that it is settled where measuring begins.
+    std::vector<Vec3> all;
+    for (const FrameRecord& frame : record.frames) all.push_back(frame.force);
+    const std::vector<Vec3> high = above_30_hz(all, 1.0 / rate);
+    double sum = 0.0;
+    for (std::size_t i = settled; i < frames; ++i) sum += high[i].squaredNorm();
+    run.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(frames - settled));
+  }
   run.effective_stiffness_p99_n_per_m = quantile(stiffness, P99);
-  const Clearance distances = clearance(scene, std::span(record.poses).subspan(settled));
+  // Where the device is, not what its encoders tell.
+  std::vector<Pose> poses;
+  for (std::size_t i = settled; i < frames; ++i)
+    poses.push_back({record.loop[i].position, record.loop[i].orientation});
+  const Clearance distances = clearance(scene, poses);
   run.clearance_m = distances.least_m;
   run.penetration_share = static_cast<double>(distances.touching) / static_cast<double>(frames - settled);
   const double seconds = static_cast<double>(frames - 1 - settled) / rate;

@@ -68,7 +68,7 @@ struct StabilityTrial {
   bool within_counts = false;
   bool limit_cycle = false;             ///< It goes on swinging; `outcome.growth` is then > 0.
   double tap_m = UNSET;                 ///< Swing of the tap on the contact's stiffness alone.
-  Vec3 force_at_rest_W = Vec3::Zero();  ///< [N]
+  Vec3 force_at_rest_W = Vec3::Zero();  ///< [N], before the device clips it.
   /// From the device's point to the line of that force, for a device that turns as well.
   double lever_m = 0.0;
   Cleanliness outcome;

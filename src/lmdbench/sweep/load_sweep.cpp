@@ -164,10 +164,11 @@ Sweep parse_sweep(const std::string& text, const std::filesystem::path& file,
   std::map<std::string, std::size_t> tasks;
   for (std::size_t i = 0; i < sweep.points.size(); ++i)
     if (const auto [other, is_new] = tasks.try_emplace(task_key(sweep.points[i]), i); !is_new)
-      document.fail("/series",
-                    fmt::format("points {} and {} are the same: {}, {}", other->second, i,
-                                sweep.points[i].series, sweep.points[i].axes_text()),
-                    "give a value once; name, title, /probes and /record of the experiment are no axes");
+      document.fail(
+          "/series",
+          fmt::format("points {} and {} are the same: {}, {}", other->second, i, sweep.points[i].series,
+                      sweep.points[i].axes_text()),
+          "give a value once; name, title, /limits, /probes and /record of the experiment are no axes");
   if (json["from_frame"].is_null())
     for (const SweepPoint& point : sweep.points)
       sweep.from_frame = std::max(sweep.from_frame, point.experiment.driver.search_latency_frames);

@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -19,8 +17,7 @@ namespace {
 /// All of an experiment but method, driver and probes; names of files are relative to its folder.
 nlohmann::json scene_of(const Experiment& experiment) {
   nlohmann::json json = nlohmann::json::parse(experiment.resolved_json);
-  for (const char* other :
-       {"$schema", "name", "title", "methods", "driver", "probes", "record", "acceptance"})
+  for (const char* other : {"$schema", "name", "title", "methods", "driver", "probes", "record", "limits"})
     json.erase(other);
   return json;
 }
@@ -66,10 +63,7 @@ std::string InputHashes::of(const std::filesystem::path& file) {
 }
 
 const std::string& InputHashes::program() {
-  if (program_.empty()) {
-    std::ifstream program("/proc/self/exe", std::ios::binary);
-    program_ = sha256_of_text(std::string(std::istreambuf_iterator<char>(program), {}));
-  }
+  if (program_.empty()) program_ = program_sha256();
   return program_;
 }
 
@@ -116,7 +110,7 @@ using Question = std::map<std::string, std::string>;
 Question question_of(const SweepPoint& point) {
   nlohmann::json experiment = nlohmann::json::parse(point.truth.resolved_json);
   for (const char* key :
-       {"$schema", "name", "title", "methods", "driver", "probes", "record", "rules", "limits", "acceptance"})
+       {"$schema", "name", "title", "methods", "driver", "probes", "record", "plan", "limits"})
     experiment.erase(key);
   Question question;
   const nlohmann::json flat = experiment.flatten();  // outlives its items

@@ -119,8 +119,8 @@ PointErrors judge(const MethodRecord& record, const SweepPoint& point, const Sha
   const MethodChoice& choice = point.experiment.methods.front();
   const RunFrames frames{scene.in_contact(), scene.run().input.frame_rate_hz,
                          scene.run().profiles.front().force.maximum_force, contact_ports(scene.run().input)};
-  const std::vector<TruthComparison> rows =
-      compare_with_truth(truth.sets.frames, record, choice.force_law, scene.run_of(truth).scene());
+  const std::vector<TruthComparison> rows = compare_with_truth(truth.sets.frames, record, choice.force_law,
+                                                               truth.other ? nullptr : &scene.run().scene());
   MethodSummary summary;
   summarise_counts(summary, record, frames);
   summarise_rendering(summary, record, frames);
@@ -326,24 +326,25 @@ SweepResult sweep_to_file(const Sweep& sweep, const std::filesystem::path& file,
   const std::vector<std::filesystem::path> inputs = inputs_of(sweep);
   refuse_unsafe_output(file, {.what = "result file", .is_ours = &is_own_result}, inputs, "--out");
   refuse_unsafe_output(journal_of(file), {.what = "journal", .is_ours = &is_own_journal}, inputs, "--out");
+  const auto machine = machine_info();  // before the sweep loads it
   ResultWriter writer(file);
   if (RunKeeper::measured_frames(writer.part()) > 0)
     throw EnvironmentError(writer.part().part_name().string(), "", "holds what an interrupted run measured",
                            "go on with it by `lmdbench run --resume`, or remove the file");
+  // Once committed, the name may be another run's.
   struct RemovePart {
-    std::filesystem::path part;
+    PartFile& part;
     ~RemovePart() {
-      std::error_code ignored;
-      std::filesystem::remove(part, ignored);
+      if (!part.is_removed()) part.remove();
     }
-  } remove_part{file.string() + ".part"};
+  } remove_part{writer.part()};
   Journal journal = journal_with_parts(journal_of(file), file);
   InputHashes hashes;
   hashes.of(sweep.file);
   const SweepWork work = measure(journal, hashes);
   SweepResult result = collect_points(sweep, journal, hashes);
   result.resumed_runs = work.resumed_runs;
-  write_provenance(writer, argv, sweep.resolved_json, "{}", result.inputs);
+  write_provenance(writer, argv, sweep.resolved_json, "{}", result.inputs, machine);
   write_sweep(writer, sweep, result);
   writer.commit();
   return result;

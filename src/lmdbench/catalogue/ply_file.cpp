@@ -3,16 +3,20 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/line_reader.h>
-#include <lmdbench/catalogue/ply_check.h>
+#include <lmdbench/catalogue/ply_file.h>
+#include <lmdbench/catalogue/polygon.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -49,7 +53,6 @@ struct Property {
   std::string name;
   ScalarType type;                  ///< Of a list: of its items.
   std::optional<ScalarType> count;  ///< Of a list: of its length.
-  bool is_polygon = false;          ///< The list of a face's corners.
 };
 
 struct Element {
@@ -167,8 +170,6 @@ class HeaderReader {
     property.type = type_of(word);
     property.name = next_word(line);
     if (property.name.empty()) fail("a property has no name");
-    property.is_polygon =
-        property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
     elements_.back().properties.push_back(property);
   }
 
@@ -179,27 +180,35 @@ class HeaderReader {
   std::vector<Element> elements_;
 };
 
-/// Walks over the content after the header.
-class BodyWalk {
+/// Reads the content after the header.
+class BodyReader {
  public:
-  BodyWalk(const HeaderReader& header, const std::string& file)
-      : rest_(header.body()), lines_before_(header.lines()), form_(header.form()), file_(file) {}
+  BodyReader(const HeaderReader& header, const std::string& file)
+      : rest_(header.body()), lines_before_(header.lines()), form_(header.form()), file_(file) {
+    if (form_ != Form::TEXT) return;
+    if (const std::size_t mark = rest_.find('#'); mark != std::string_view::npos)
+      throw InputError(
+          file_, fmt::format("line {}", lines_before_ + 1 + std::ranges::count(rest_.substr(0, mark), '\n')),
+          "'#' begins no comment in a PLY file", "remove it");
+    text_.emplace(file_, rest_, lines_before_);
+  }
 
-  void walk(const std::vector<Element>& elements) {
-    if (form_ == Form::TEXT) {
-      if (const std::size_t mark = rest_.find('#'); mark != std::string_view::npos)
-        throw InputError(
-            file_,
-            fmt::format("line {}", lines_before_ + 1 + std::ranges::count(rest_.substr(0, mark), '\n')),
-            "'#' begins no comment in a PLY file", "remove it");
-      text_.emplace(file_, rest_, lines_before_);
-    }
+  /// Adds the vertices to a mesh that has none, or its triangles to one that has its vertices:
+  /// faces may stand before vertices.
+  void read(const std::vector<Element>& elements, TriangleMesh& mesh) {
+    const bool vertices_are_read = !mesh.vertices.empty();
     for (const Element& element : elements) {
       if (element.properties.empty() && element.count > 0)
         throw InputError(file_, "element " + element.name, "has no properties", "correct the header");
       for (std::int64_t i = 0; i < element.count; ++i) {
         if (text_ && !text_->next_line()) fail(element, i, ENDS_BEFORE);
-        for (const Property& property : element.properties) skip(property, element, i);
+        if (element.name == "vertex" && !vertices_are_read)
+          mesh.vertices.push_back(read_vertex(element, i));
+        else if (vertices_are_read && (element.name == "face" || element.name == "tristrips"))
+          read_corners(element, i, mesh);
+        else
+          for (const Property& property : element.properties)
+            read_property(property, element, i, [](double) {});
         if (text_ && !text_->at_line_end())
           text_->fail(
               fmt::format("{} {} goes on behind its {}", element.name, i, element.properties.back().name),
@@ -212,35 +221,82 @@ class BodyWalk {
 
  private:
   static constexpr const char* ENDS_BEFORE = "is not there: the file ends before";
+  static constexpr const char* COUNTED = "vertices are counted from 0; correct the index";
 
-  void skip(const Property& property, const Element& element, std::int64_t index) {
-    std::int64_t items = 1;
-    if (property.count) {
-      const std::optional<std::int64_t> length = read_whole_number(*property.count);
-      if (!length || *length < 0) fail(element, index, "has no whole number for the length of its list");
-      items = *length;
-      if (property.is_polygon && items > limit_of(Limit::POLYGON_CORNERS))
-        throw InputError(
-            file_, fmt::format("{} {}", element.name, index),
-            fmt::format("is a polygon of {} corners, above the limit of {}", items,
-                        limit_of(Limit::POLYGON_CORNERS)),
-            "cut it into triangles where it was made, or " + raise_remedy(Limit::POLYGON_CORNERS));
-    }
-    if (text_) {
-      for (; items > 0; --items)
-        if (property.type.is_integer)
-          text_->number<std::int64_t>(property.name.c_str());
-        else
-          text_->number<double>(property.name.c_str());
-      return;
-    }
-    if (static_cast<std::uint64_t>(items) > rest_.size() / property.type.bytes)
-      fail(element, index, ENDS_BEFORE);
-    rest_.remove_prefix(static_cast<std::size_t>(items) * property.type.bytes);
+  Vec3 read_vertex(const Element& element, std::int64_t index) {
+    Vec3 vertex = Vec3::Zero();
+    for (const Property& property : element.properties)
+      read_property(property, element, index, [&](double value) {
+        if (property.name == "x") vertex.x() = value;
+        if (property.name == "y") vertex.y() = value;
+        if (property.name == "z") vertex.z() = value;
+      });
+    return vertex;
   }
 
-  std::optional<std::int64_t> read_whole_number(const ScalarType& type) {
-    if (text_) return text_->number<std::int64_t>("the length of a list");
+  void read_corners(const Element& element, std::int64_t index, TriangleMesh& mesh) {
+    const bool is_strip = element.name == "tristrips";
+    corners_.clear();
+    for (const Property& property : element.properties) {
+      const bool has_corners =
+          property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+      read_property(property, element, index, [&](double value) {
+        if (!has_corners) return;
+        if (value != std::floor(value)) fail(element, index, fmt::format("names vertex {}", value), COUNTED);
+        if (!(value >= 0.0 && value < static_cast<double>(mesh.vertices.size())) &&
+            !(is_strip && value == -1.0))
+          fail(element, index,
+               fmt::format("names vertex {}, but there are {} vertices", value, mesh.vertices.size()),
+               COUNTED);
+        corners_.push_back(static_cast<std::int32_t>(value));
+      });
+    }
+    for (const std::int32_t corner : corners_)
+      if (corner >= 0 && !mesh.vertices[static_cast<std::size_t>(corner)].allFinite())
+        throw InputError(file_, fmt::format("vertex {}", corner), "has a coordinate that is not finite",
+                         "correct or remove it");
+    if (is_strip) return add_strips(mesh);
+    if (corners_.size() < 3) return;
+    if (const std::optional<PolygonFault> fault = add_polygon(corners_, mesh))
+      fail(element, index, fault->problem, fault->remedy);
+  }
+
+  /// Strips, parted by -1; every second triangle of one turns the other way.
+  void add_strips(TriangleMesh& mesh) const {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      if (corners_[i] < 0) begin = i + 1;
+      if (i < begin + 2) continue;
+      std::array<std::int32_t, 3> triangle{corners_[i - 2], corners_[i - 1], corners_[i]};
+      if ((i - begin) % 2 == 1) std::swap(triangle[0], triangle[1]);
+      mesh.triangles.push_back(triangle);
+    }
+  }
+
+  /// @param take  is called with each number
+  void read_property(const Property& property, const Element& element, std::int64_t index, const auto& take) {
+    std::int64_t items = 1;
+    if (property.count) {
+      const std::optional<double> length = read_number(*property.count, "the length of a list");
+      if (!length || *length < 0.0) fail(element, index, "has no whole number for the length of its list");
+      items = static_cast<std::int64_t>(*length);
+      if (!text_ && static_cast<std::uint64_t>(items) > rest_.size() / property.type.bytes)
+        fail(element, index, ENDS_BEFORE);
+    }
+    for (; items > 0; --items) {
+      const std::optional<double> value = read_number(property.type, property.name.c_str());
+      if (!value) fail(element, index, ENDS_BEFORE);
+      take(*value);
+    }
+  }
+
+  /// Nothing at the end of a binary file. Coordinates have the precision that the header names.
+  std::optional<double> read_number(const ScalarType& type, const char* what) {
+    if (text_) {
+      if (type.is_integer) return static_cast<double>(text_->number<std::int64_t>(what));
+      const auto value = text_->number<double>(what);
+      return type.bytes == 4 ? static_cast<double>(static_cast<float>(value)) : value;
+    }
     if (rest_.size() < type.bytes) return std::nullopt;
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < type.bytes; ++i) {
@@ -248,14 +304,17 @@ class BodyWalk {
       bits = (bits << 8U) | static_cast<unsigned char>(rest_[at]);
     }
     rest_.remove_prefix(type.bytes);
-    const std::uint64_t sign_bit = std::uint64_t{1} << (8 * type.bytes - 1);
-    if (type.is_signed && (bits & sign_bit) != 0) return -1;
-    return static_cast<std::int64_t>(bits);
+    if (!type.is_integer)
+      return type.bytes == 8 ? std::bit_cast<double>(bits)
+                             : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    const std::uint64_t sign = std::uint64_t{1} << (8 * type.bytes - 1);
+    if (!type.is_signed || (bits & sign) == 0) return static_cast<double>(bits);
+    return static_cast<double>(static_cast<std::int64_t>(bits)) - 2.0 * static_cast<double>(sign);
   }
 
-  [[noreturn]] void fail(const Element& element, std::int64_t index, const std::string& problem) const {
-    throw InputError(file_, fmt::format("{} {} of {}", element.name, index, element.count), problem,
-                     CUT_SHORT);
+  [[noreturn]] void fail(const Element& element, std::int64_t index, const std::string& problem,
+                         const std::string& remedy = CUT_SHORT) const {
+    throw InputError(file_, fmt::format("{} {} of {}", element.name, index, element.count), problem, remedy);
   }
 
   std::string_view rest_;
@@ -263,136 +322,18 @@ class BodyWalk {
   Form form_;
   std::string file_;
   std::optional<LineReader> text_;
+  std::vector<std::int32_t> corners_;
 };
 
 }  // namespace
 
-PlyContent check_ply(std::string_view bytes, const std::string& file) {
+TriangleMesh parse_ply(std::string_view bytes, const std::string& file) {
   HeaderReader header(bytes, file);
   const std::vector<Element> elements = header.read();
-  BodyWalk(header, file).walk(elements);
-  return {bytes.size() - header.body().size(), header.form() == Form::TEXT};
-}
-
-std::string with_its_first_byte(std::string_view ply, const PlyContent& content) {
-  std::string result(ply);
-  if (!content.is_text && ply.substr(content.offset).starts_with('\n') && ply[content.offset - 2] != '\r')
-    result.insert(content.offset - 1, 1, '\r');
-  return result;
-}
-
-namespace {
-
-/// Bytes of a line per corner of a polygon: three indices of ten digits, and signs between.
-constexpr std::int64_t BYTES_PER_CORNER = 40;
-
-std::int64_t word_count(std::string_view line) {
-  std::int64_t count = 0;
-  bool in_word = false;
-  for (const char c : line) {
-    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\\';
-    if (!blank && !in_word) ++count;
-    in_word = !blank;
-  }
-  return count;
-}
-
-/// Checks vertices in "v" and "f" lines.
-class ObjVertices {
- public:
-  void check(LineReader line, std::size_t number) {
-    if (!line.next_line()) return;
-    const std::string_view keyword = line.word();
-    if (keyword == "v") {
-      std::size_t numbers = 0;
-      for (; numbers < 3 || !line.at_line_end(); ++numbers) line.number<double>("a coordinate");
-      // A weight or a colour may follow; assimp drops other lines.
-      if (numbers != 3 && numbers != 4 && numbers != 6)
-        line.fail(fmt::format("a vertex of {} numbers", numbers));
-      ++count_;
-    }
-    while (keyword == "f" && !line.at_line_end()) {
-      const std::string_view corner = line.word();
-      const auto named = line.number<std::int64_t>("a vertex index", corner.substr(0, corner.find('/')));
-      if (named == 0 || -named > count_)
-        line.fail(fmt::format("a face names vertex {}, but {} vertices stand before it", named, count_),
-                  COUNTED);
-      if (named > largest_) largest_ = named, line_of_largest_ = number;
-    }
-  }
-
-  /// Call after the last line: a face may name vertices that come later.
-  void check_largest(const std::string& file) const {
-    if (largest_ > count_)
-      throw InputError(file, fmt::format("line {}", line_of_largest_),
-                       fmt::format("a face names vertex {}, but the file has {}", largest_, count_), COUNTED);
-  }
-
- private:
-  static constexpr const char* COUNTED =
-      "vertices are counted from 1, backwards from -1; correct the index, or add the vertices that are "
-      "missing";
-  std::int64_t count_ = 0, largest_ = 0;
-  std::size_t line_of_largest_ = 0;
-};
-
-}  // namespace
-
-void check_obj(std::string_view text, const std::string& file) {
-  const std::int64_t most_corners = limit_of(Limit::POLYGON_CORNERS);
-  std::int64_t corners = 0;  // of the current face: a backslash at a line's end continues it
-  std::int64_t length = 0;   // of the lines so joined
-  bool in_face = false;
-  std::string joined;  // Lines that are continued, without their backslashes.
-  ObjVertices vertices;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    if (length == 0) {
-      const std::string_view word = line.substr(std::min(line.size(), line.find_first_not_of(" \t")));
-      in_face = word.starts_with("f ") || word.starts_with("f\t") || word == "f" || word.starts_with("f\\");
-      corners = -1;  // the keyword is a word, too
-    }
-    corners += word_count(line);
-    length += static_cast<std::int64_t>(line.size());
-    const auto fail = [&](const std::string& problem) {
-      throw InputError(
-          file, fmt::format("line {}", number), problem,
-          "cut polygons into triangles where they were made, or " + raise_remedy(Limit::POLYGON_CORNERS));
-    };
-    if (in_face && corners > most_corners)
-      fail(fmt::format("a polygon of {} corners or more, above the limit of {}", corners, most_corners));
-    if (length > BYTES_PER_CORNER * most_corners)
-      fail(fmt::format("a line of {} bytes, more than a polygon of {} corners needs", length, most_corners));
-    const bool continues = line.ends_with('\\') || line.ends_with("\\\r");
-    if (continues || !joined.empty()) joined.append(line.substr(0, line.find('\\'))).append(" ");
-    if (continues) continue;
-    vertices.check(LineReader(file, joined.empty() ? line : joined, number - 1), number);
-    joined.clear();
-    length = 0;
-  }
-  vertices.check_largest(file);
-}
-
-std::string without_materials(std::string_view text) {
-  std::string result(text);
-  for (std::size_t begin = 0; begin < result.size();) {
-    const std::size_t end = std::min(result.find('\n', begin), result.size());
-    const std::size_t word = result.find_first_not_of(" \t", begin);
-    const std::string_view line = std::string_view(result).substr(begin, end - begin);
-    if (word < end) {
-      const std::string_view rest = line.substr(word - begin);
-      // A comment with a backslash at its end must not swallow the next line.
-      if (rest.starts_with("mtllib") || rest.starts_with("usemtl"))
-        std::fill(result.begin() + static_cast<std::ptrdiff_t>(word),
-                  result.begin() + static_cast<std::ptrdiff_t>(end), '#');
-      else if (const std::size_t comment = result.find('#', word + 1); comment < end && result[word] != '#')
-        std::fill(result.begin() + static_cast<std::ptrdiff_t>(comment),
-                  result.begin() + static_cast<std::ptrdiff_t>(end), ' ');
-    }
-    begin = end + 1;
-  }
-  return result;
+  TriangleMesh mesh;
+  BodyReader(header, file).read(elements, mesh);
+  if (!mesh.vertices.empty()) BodyReader(header, file).read(elements, mesh);
+  return mesh;
 }
 
 }  // namespace lmdbench

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The lmdbench authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <lmdbench/mesh/triangle_mesh.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace lmdbench {
+
+/// Why a polygon was not cut.
+struct PolygonFault {
+  std::string problem, remedy;
+};
+
+/// Adds a polygon's triangles, which turn as it does: the fan of the first corner from which none
+/// is turned over, else ears, cut one by one. A triangle turned over by less than 1e-6 of the area
+/// is rounding.
+/// @param polygon  vertices of the mesh, at least 3
+/// @return what is wrong, with an unchanged mesh: sides that cross, or a limit of corners or
+///   triangles
+[[nodiscard]] std::optional<PolygonFault> add_polygon(std::span<const std::int32_t> polygon,
+                                                      TriangleMesh& mesh);
+
+}  // namespace lmdbench
