@@ -64,8 +64,9 @@ mutants() {
     END { row_ends() }' "$LIST"
 }
 mapfile -t rows < <(mutants)
+names="$(printf '%s\n' "${rows[@]}" | cut -d $'\037' -f 1)"
 for name in "${only[@]}"; do
-  printf '%s\n' "${rows[@]%%$'\037'*}" | grep -qxF -- "$name" ||
+  grep -qxF -- "$name" <<<"$names" ||
     die 2 "there is no defect '$name' (remedy: its names: grep '^  [a-z]' scripts/mutants.txt)"
 done
 begin=$(((part - 1) * ${#rows[@]} / parts)) end=$((part * ${#rows[@]} / parts))

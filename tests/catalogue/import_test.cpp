@@ -354,6 +354,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "line 4: a face names vertex 9, but the file has 3"},
         BrokenMesh{"obj_index_back", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n",
                    "line 4: a face names vertex -4, but 3 vertices stand before it"},
+        BrokenMesh{"obj_index_far_back", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9223372036854775808\n",
+                   "line 4: a face names vertex -9223372036854775808"},
         BrokenMesh{"obj_index_zero", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "names vertex 0"},
         BrokenMesh{"obj_word", "a.obj", "# made\nv 0 0 0\nv 1 abc 0\nv 0 1 0\nf 1 2 3\n",
                    "line 3: a coordinate 'abc' is not a number"},
@@ -454,8 +456,8 @@ TEST(WeldedTest, JoinsEqualPositionsOnlyAndKeepsTheOrder) {
 
 TEST(ImportTest, AnObjMayCallColoursWeightsAndVerticesToCome) {
   const ScratchDirectory folder;
-  const TriangleMesh mesh = import_mesh(
-      folder.write("a.obj", "v 0 0 0 1\nf 1 2 3\nv 1 0 0 0.2 0.3 0.4\nv 0 1 \\\n0\nv 9 9 9\nf -4 -3 -2\n"));
+  const TriangleMesh mesh = import_mesh(folder.write(
+      "a.obj", "v 0 0 0 1\nf 1 2 3\nv 1 0 0 0.2 0.3 0.4\nv 0 1 \\\n0\nv 9 9 9\nf\\\n-4 -3 \\\r\n-2\n"));
   EXPECT_THAT(mesh.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
   EXPECT_EQ(mesh.triangles.size(), 2u);
 }

@@ -48,13 +48,13 @@ std::optional<std::string> broken_off(std::string_view bytes) {
 }
 
 std::optional<std::string> broken_ply(std::string_view bytes) {
-  return broken_unless_refused("fuzz.ply",
-                               [&]() -> std::string { return broken_mesh(parse_ply(bytes, "fuzz.ply")); });
+  return broken_unless_refused(
+      "fuzz.ply", [&]() -> std::string { return broken_mesh(welded(parse_ply(bytes, "fuzz.ply"))); });
 }
 
 std::optional<std::string> broken_obj(std::string_view bytes) {
-  return broken_unless_refused("fuzz.obj",
-                               [&]() -> std::string { return broken_mesh(parse_obj(bytes, "fuzz.obj")); });
+  return broken_unless_refused(
+      "fuzz.obj", [&]() -> std::string { return broken_mesh(welded(parse_obj(bytes, "fuzz.obj"))); });
 }
 
 std::optional<std::string> broken_import(std::string_view bytes) {

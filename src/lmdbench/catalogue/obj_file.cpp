@@ -28,20 +28,22 @@ void for_each_line(std::string_view text, const std::string& file, const auto& t
   const auto continues = [&] { return lines.ends_with("\\") || lines.ends_with("\\\r"); };
   std::string joined;
   while (lines.next_line()) {
-    const std::string_view word = lines.word();
+    const bool goes_on = continues();
+    std::string_view word = lines.word();
+    if (word.ends_with('\\')) word.remove_suffix(1);
     if (std::ranges::find(FREE_FORM, word) != FREE_FORM.end())
       lines.fail(fmt::format("'{}' is part of a free-form curve or surface", word),
                  "export the mesh as polygons");
     if (word != "v" && word != "f") continue;
-    if (!continues()) {
+    if (!goes_on) {
       take(word, lines);
       continue;
     }
     joined.clear();
-    while (continues()) {
+    do {
       joined.append(lines.rest().substr(0, lines.rest().rfind('\\'))).append(" ");
       if (!lines.next_line()) lines.fail("the file ends in a line that goes on", CUT_SHORT);
-    }
+    } while (continues());
     joined.append(lines.rest());
     LineReader line(file, joined, lines.line_number() - 1);
     if (!line.next_line()) line.fail("nothing behind its keyword");
@@ -66,7 +68,7 @@ std::int32_t read_corner(LineReader& line, std::int64_t before, const std::vecto
   constexpr const char* COUNTED = "vertices are counted from 1, backwards from -1; correct the index";
   const std::string_view word = line.word();
   const auto named = line.number<std::int64_t>("a vertex index", word.substr(0, word.find('/')));
-  if (named == 0 || -named > before)
+  if (named == 0 || named < -before)
     line.fail(fmt::format("a face names vertex {}, but {} vertices stand before it", named, before), COUNTED);
   if (named > std::ssize(vertices))  // it may come later
     line.fail(fmt::format("a face names vertex {}, but the file has {}", named, vertices.size()), COUNTED);
