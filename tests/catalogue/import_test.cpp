@@ -226,13 +226,14 @@ std::string ply_of_a_tetrahedron(const std::string& before, const std::string& b
 
 TEST(ImportTest, OtherElementsAndPropertiesOfAPlyArePassedOver) {
   const ScratchDirectory folder;
-  const std::string camera = "element camera 1\nproperty float view_px\nproperty list uchar int times\n";
+  const std::string camera =
+      "element camera 1\nproperty float view_px\nproperty list uchar int vertex_indices\n";
   const TriangleMesh plain = import_mesh(folder.write("a.ply", ply_of_a_tetrahedron("", "", "", "")));
   ASSERT_EQ(plain.triangles.size(), 4u);
   EXPECT_EQ(plain.vertices[2], Vec3(0, 1, 0));
   for (const std::string& text :
-       {ply_of_a_tetrahedron(camera, "", "7.5 2 1 2\n", ""), ply_of_a_tetrahedron("", camera, "", "7.5 0\n"),
-        ply_of_a_tetrahedron("", "", "", " \r\n")}) {
+       {ply_of_a_tetrahedron(camera, "", "7.5 3 1 2 3\n", ""),
+        ply_of_a_tetrahedron("", camera, "", "7.5 0\n"), ply_of_a_tetrahedron("", "", "", " \r\n")}) {
     const TriangleMesh mesh = import_mesh(folder.write("b.ply", text));
     EXPECT_EQ(mesh.vertices, plain.vertices);
     EXPECT_EQ(mesh.triangles, plain.triangles);
@@ -244,7 +245,7 @@ TEST(ImportTest, StripsOfAPlyAreTrianglesThatTurnOneWay) {
   const std::string text =
       "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-      "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n10 1 0 3 2 5 -1 4 5 3 -1\n";
+      "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n9 1 0 3 2 -1 3 2 5 4\n";
   const TriangleMesh mesh = import_mesh(folder.write("s.ply", text));
   ASSERT_EQ(mesh.triangles.size(), 4u);
   for (std::int32_t t = 0; t < 4; ++t) {
@@ -457,7 +458,8 @@ TEST(WeldedTest, JoinsEqualPositionsOnlyAndKeepsTheOrder) {
 TEST(ImportTest, AnObjMayCallColoursWeightsAndVerticesToCome) {
   const ScratchDirectory folder;
   const TriangleMesh mesh = import_mesh(folder.write(
-      "a.obj", "v 0 0 0 1\nf 1 2 3\nv 1 0 0 0.2 0.3 0.4\nv 0 1 \\\n0\nv 9 9 9\nf\\\n-4 -3 \\\r\n-2\n"));
+      "a.obj",
+      "v 0 0 0 1\nf 1 2 3\nv 1 0 0 0.2 0.3 0.4\nv 0 1 \\\n0\nv 9 9 9\nf\\\n-4 -3 \\\r\n-2\nv 8 8 8\n"));
   EXPECT_THAT(mesh.vertices, ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
   EXPECT_EQ(mesh.triangles.size(), 2u);
 }
