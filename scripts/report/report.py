@@ -5,10 +5,12 @@
 it. `lmdbench report` calls this with the scenes of the results; everything else comes from the result files alone."""
 
 import argparse
+import ctypes
 import html
 import json
 import os
 import re
+import signal
 import sys
 from pathlib import Path
 
@@ -32,6 +34,7 @@ from sweep_results import Sweep, is_sweep  # noqa: E402
 from tables import write_text  # noqa: E402
 from variants import open_results, refuse_twice, tell_apart  # noqa: E402
 
+PR_SET_PDEATHSIG = 1  # <linux/prctl.h>
 JAVASCRIPT = "/usr/share/javascript"
 LIBRARIES = (("three/three.min.js", "libjs-three"), ("three/examples/js/controls/OrbitControls.js", "libjs-three"),
              ("dygraphs/dygraph.min.js", "libjs-dygraphs"), ("dygraphs/src/extras/synchronizer.js", "libjs-dygraphs"))
@@ -204,6 +207,7 @@ def main(argv):
     parser.add_argument("--paper", nargs="?", const="", metavar="DIR", help="hold the results against the paper: its Figure 7, its claims and, "
                         "of a folder, its Figures 1 to 6 (scripts/figures/figure1.py to figure6.py)")
     arguments = parser.parse_args(argv)
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)  # a page that nobody waits for is not written
     refuse_twice(arguments.results)
     sweeps = tell_apart([Sweep(file) for file in arguments.results if is_sweep(file)])
     runs = [(i, file) for i, file in enumerate(arguments.results) if not is_sweep(file)]

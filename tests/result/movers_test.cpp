@@ -328,6 +328,9 @@ TEST(Movers, ExportAndTheViewHaveThemAll) {
     EXPECT_THAT(written, ::testing::Contains(scratch / "vtk" / name));
   EXPECT_THAT(testing::read_text(scratch / "vtk" / "forces-movers" / "000000.vtu"),
               AllOf(HasSubstr("NumberOfPoints=\"7\""), HasSubstr("force of certified [N]")));
+  const auto left = scratch.write("vtk/movers/.000003.vtu.4711-0.part", "");
+  export_frames(result, scratch / "vtk", 5);
+  EXPECT_FALSE(std::filesystem::exists(left)) << "of an export that was killed";
   std::filesystem::create_directory(scratch / "view");
   write_report_scene(result, scratch / "view");
   for (const char* name : {"moving.off", "fixed_0.off", "mover_0.off", "mover_1.off"})

@@ -38,8 +38,10 @@ bool is_export_name(const fs::path& file) {
   return std::regex_match(file.filename().string(), NAMES) && is_vtk(file);
 }
 bool is_frame_name(const fs::path& file) {
-  static const std::regex NAMES("[0-9]{6,}\\.vtu");
-  return std::regex_match(file.filename().string(), NAMES) && is_vtk(file);
+  static const std::regex NAMES("[0-9]{6,}\\.vtu"),
+      LEFT_BY_A_KILL("\\.[0-9]{6,}\\.vtu\\.[0-9]+-[0-9]+\\.part");
+  const std::string name = file.filename().string();
+  return (std::regex_match(name, NAMES) && is_vtk(file)) || std::regex_match(name, LEFT_BY_A_KILL);
 }
 
 /// Writes into the requested folder, and replaces earlier exports only.

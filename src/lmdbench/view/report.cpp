@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -98,6 +99,11 @@ fs::path write_report(const ReportRequest& request, const Tell& progress, const 
   if (!request.studies.empty()) argv.emplace_back("--study");
   for (const fs::path& study : request.studies) argv.push_back(fs::absolute(study).string());
 
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error || ::access(out.c_str(), W_OK | X_OK) != 0)
+    throw EnvironmentError(request.out.string(), "", "cannot be made, or not be written to",
+                           "check the permissions, or name another folder with --out");
   progress("drawing the figures and the page");
   const ProgramOutcome outcome = run_program(argv, fs::current_path(), PACKAGES);
   if (outcome.exit_status == static_cast<int>(ExitCode::USAGE))
