@@ -25,7 +25,7 @@ PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages
   shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
 # Rooms and files that make no set: commands, drivers, numbers, files of results, interfaces, what
 # is told of meshes; and what reads meshes and paths, which searches in generated scenes make.
-ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,catalogue/{CMakeLists.txt,'assimp_*','*_check.*','*_file.*','import.*',line_reader.h,'mesh_limits.*','polygon*'},cli,comparison,drivers,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
+ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,catalogue/{CMakeLists.txt,'assimp_*','*_check.*','*_file.*','import.*',line_reader.h,'mesh_limits.*','polygon*'},cli,comparison,drivers,force,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
   src/lmdbench/{phantom,plugin,prepare,probes,python,realtime,result,result_file,run,stability,sweep,view} experiments/judge/main.cpp
   experiments/support/'program.*')
 # What only tests and this script read.

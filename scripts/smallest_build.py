@@ -112,7 +112,7 @@ def check_messages(check, full, folder):
 
     lacks(["run", "any.json", "--out", "any.h5"], "-DLMDBENCH_WITH_HDF5=ON", "libhdf5-dev")
     lacks([*BOXES, "--method", "nearest"], "-DLMDBENCH_WITH_FCL=ON", "libfcl-dev")
-    lacks([part.replace("cube.off", "cube.stl") for part in BOXES], "-DLMDBENCH_WITH_ASSIMP=ON", "libassimp-dev")
+    lacks([part.replace("cube.off", "cube.glb") for part in BOXES], "-DLMDBENCH_WITH_ASSIMP=ON", "libassimp-dev")
     for command in re.findall(r"^  ([a-z-]+) ", run(full, ["--help"], folder).stdout.split("Subcommands:")[1], re.M):
         done = run(PROGRAM, [command, "--help"], folder)
         check.that("not expected" not in done.stderr, f"the command {command} is not even known")
@@ -162,7 +162,7 @@ def main():
         check.that(not any(part in lib for lib in linked), f"links {part}")
         check.that(any(part in lib for lib in linked_by_full), f"the full program does not link {part}, so that nothing is shown")
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("cube.obj", CUBE_OBJ), ("cube.off", CUBE_OFF), ("cube.stl", "solid\nendsolid\n"),
+        for name, text in (("cube.obj", CUBE_OBJ), ("cube.off", CUBE_OFF), ("cube.glb", "{}"),
                            ("apart.tum", "0 1.05 0.2 0.1 0 0 0 1\n")):
             Path(folder, name).write_text(text, encoding="ascii")
         check_queries(check, full, folder)

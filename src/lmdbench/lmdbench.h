@@ -28,7 +28,7 @@ class Body;
 /// threads. What else a method needs (a hierarchy) is made once, by the first such search.
 class PreparedMesh {
  public:
-  /// Reads a mesh file: OFF; with component `formats` (assimp) also PLY, OBJ, STL and glTF 2. Welds
+  /// Reads a mesh file: OFF, PLY, OBJ, STL; with component `formats` (assimp) also glTF 2. Welds
   /// vertices of one position and drops those without triangles, as `lmdbench query` does: indices
   /// of features count the vertices and triangles of `mesh()`.
   /// @param planar_tolerance how far vertices may be off their plane and still be put back into

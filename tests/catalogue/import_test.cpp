@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <bit>
@@ -98,11 +99,13 @@ TEST(ImportTest, ALimitOfMemoryIsToldByItsName) {
   if (IS_SANITIZED)
     GTEST_SKIP() << "sanitizers reserve terabytes of addresses, which is what the limit is on";
   const ScratchDirectory folder;
-  const auto file = folder.write("blob.stl", to_binary_stl(make_blob(1.0, 0.3, 8)));
+  const auto file = folder.write(
+      "blob.gltf", R"({"asset": {"version": "2.0"}, "extras": ")" + std::string(40'000'000, 'x') + R"("})");
+  malloc_trim(0);  // what earlier tests left free is not new memory
   set_limit("import-bytes=1000");
   const std::string message = message_of<Error>([&] { import_mesh(file); });
   set_limit("import-bytes=17179869184");
-  EXPECT_THAT(message, AllOf(HasSubstr("blob.stl"), HasSubstr("--limit import-bytes=")));
+  EXPECT_THAT(message, AllOf(HasSubstr("blob.gltf"), HasSubstr("--limit import-bytes=")));
 }
 
 TEST(ImportTest, KeepsTheTrianglesOfEveryFormatInTheirOrder) {
@@ -133,6 +136,11 @@ TEST(ImportTest, ReadsABinaryPlyWhoseFirstByteIsALineFeed) {
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   EXPECT_EQ(import_mesh(folder.write("text.ply", ascii)).vertices[1], Vec3(1, 0, 0));
+}
+
+std::string stl_with(const std::string& second_vertex) {
+  return "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n" + second_vertex +
+         "\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
 }
 
 TEST(ImportTest, WeldedStlIsClosed) {
@@ -254,6 +262,13 @@ TEST(ImportTest, StripsOfAPlyAreTrianglesThatTurnOneWay) {
   }
 }
 
+TEST(ImportTest, TextOfAnStlIsReadToTheNearestNumber) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh =
+      import_mesh(folder.write("n.stl", stl_with("vertex 1.904452e-03 8.0e-3 0.00000000000000797608")));
+  EXPECT_EQ(mesh.vertices[1], Vec3(1.904452e-03F, 8.0e-3F, 0.00000000000000797608F));
+}
+
 /// Faces of an L begun at each corner: assimp 5.2.5 cuts two of six across the notch.
 TEST(ImportTest, PolygonsThatAreNotConvexAreCutInsideOfThemselves) {
   const ScratchDirectory folder;
@@ -339,11 +354,6 @@ const std::string PLY_HEADER =
     "face 1\n"
     "property list uchar int vertex_indices\nend_header\n";
 
-std::string stl_with(const std::string& second_vertex) {
-  return "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n" + second_vertex +
-         "\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenMeshTest,
     ::testing::Values(
@@ -401,6 +411,35 @@ INSTANTIATE_TEST_SUITE_P(
                    std::string("glTF\2\0\0\0\x60\0\0\0\x4c\0\0\0JSON", 20) +
                        R"({"asset":{"version":"2.0"},"extensionsRequired":["EXT_mesh_gpu_instancing"]})",
                    "the extension 'EXT_mesh_gpu_instancing' is not read"},
+        BrokenMesh{"obj_cut", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 2 3",
+                   "line 5: a face of 2 corners"},
+        BrokenMesh{
+            "ply_two_lists", "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+            "z\nelement face 1\nproperty list uchar int vertex_indices\nproperty list uchar int "
+            "vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 3 0 2 1\n",
+            "two lists of corners"},
+        BrokenMesh{
+            "ply_other_list", "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+            "z\nelement face 1\nproperty list uchar int vertices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+            "has no list 'vertex_indices'"},
+        BrokenMesh{"ply_endless_list", "a.ply", PLY_HEADER + "0 0 0\n1 0 0\n0 1 0\n9223372036854775807\n",
+                   "no whole number for the length"},
+        BrokenMesh{"stl_two_vertices", "a.stl",
+                   "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 1 "
+                   "0\nendloop\nendfacet\nendsolid a\n",
+                   "line 7: a facet of 2 vertices"},
+        BrokenMesh{"gltf_skin", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "nodes": [{}, {"mesh": 0, "skin": 0}]})",
+                   "/nodes/1: is bent by a skin"},
+        BrokenMesh{"gltf_morph", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "meshes": [{"weights": [0, 0.5]}]})",
+                   "/meshes/0: has weights"},
+        BrokenMesh{"gltf_sparse", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "accessors": [{"bufferView": 0, "sparse": {}}],
+                       "bufferViews": [{"byteStride": 24}]})",
+                   "/accessors/0: is sparse over interleaved"},
         BrokenMesh{"obj_curve", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 0 1 1 2\nf 1 2 3\n",
                    "line 4: 'curv' is part of a free-form curve"},
         BrokenMesh{"obj_goes_on", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\", "line 4: the file ends"},

@@ -130,6 +130,28 @@ TEST(Polygon, RandomStepsAndStars) {
   }
 }
 
+/// A notch smaller than rounding of the area is one, and so is one beside a corner along the way.
+TEST(Polygon, ASmallNotchStaysOpen) {
+  TriangleMesh mesh;
+  for (const Eigen::Vector2d& p :
+       Corners2d{{0, 0}, {0.5, 0}, {0.5, 0.001}, {0.501, 0.001}, {0.501, 0}, {1, 0}, {1, 1}, {0, 1}})
+    mesh.vertices.emplace_back(p.x(), p.y(), 0.0);
+  const std::vector<std::int32_t> polygon{0, 1, 2, 3, 4, 5, 6, 7};
+  ASSERT_FALSE(add_polygon(polygon, mesh));
+  for (std::int32_t t = 0; t < 6; ++t) {
+    const Triangle c = mesh.triangle(t);
+    EXPECT_GE((c[1] - c[0]).cross(c[2] - c[0]).z(), 0.0) << t;
+  }
+}
+
+TEST(Polygon, ABowTieIsAFault) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<std::int32_t> polygon{0, 1, 2, 3};
+  EXPECT_TRUE(add_polygon(polygon, mesh));
+  EXPECT_TRUE(mesh.triangles.empty());
+}
+
 TEST(Polygon, SidesThatCrossAreAFault) {
   TriangleMesh mesh;
   for (const Eigen::Vector2d& p : Corners2d{{0, 0}, {4, 0}, {1, 3}, {3, 3}, {0, 1}})

@@ -115,5 +115,15 @@ TEST(SumForces, BalancedForcesReportTheStiffestDirection) {
   EXPECT_NEAR(wrench.stiffness, 2000.0, 1e-9);
 }
 
+/// As between two walls that stand askew: their sum is rounding, and has no direction.
+TEST(SumForces, ForcesThatCancelToRoundingAreBalanced) {
+  const Vec3 askew = Vec3(1, 2, 3).normalized();
+  LmdSet squeezed = {lmd_at(Vec3::Zero(), askew, 0.004), lmd_at(Vec3::Zero(), -askew, 0.004)};
+  squeezed[1].direction += Vec3(1e-16, -1e-16, 2e-16);
+  const Wrench wrench = sum_forces(squeezed, LINEAR_PROFILE, Vec3::Zero());
+  EXPECT_EQ(wrench.force, Vec3::Zero());
+  EXPECT_NEAR(wrench.stiffness, 2000.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace lmdbench

@@ -161,6 +161,12 @@ TEST_F(HostilePlugins, AreRefusedAtTheDoorWhereTheyCannotBeLoaded) {
   const Outcome promise = lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "no_promise.so");
   EXPECT_EQ(promise.code, INPUT_DATA);
   EXPECT_THAT(promise.err, HasSubstr("promises a force and has none"));
+  const Outcome schema = lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "endless_schema.so");
+  EXPECT_EQ(schema.code, INPUT_DATA);
+  EXPECT_THAT(schema.err, HasSubstr("refer to another schema"));
+  const Outcome table = lmdbench("plan " + SHAPES + "--plugin " + FOLDER + "endless_table.so");
+  EXPECT_EQ(table.code, INPUT_DATA);
+  EXPECT_THAT(table.err, HasSubstr("has more than 64 methods"));
   const Outcome none = lmdbench("plan " + SHAPES + "--plugin missing.so");
   EXPECT_EQ(none.code, INPUT_DATA);
   EXPECT_THAT(none.err, HasSubstr("missing.so"));

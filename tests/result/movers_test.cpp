@@ -382,7 +382,7 @@ TEST(Movers, ABadEntryNamesItsPlace) {
   EXPECT_THAT(
       message_of<InputError>([&] { prepared(R"({"mesh":"ball","path":{"file":")" + brief + "\"}}"); }),
       AllOf(HasSubstr("/movers/3/path/file"), HasSubstr("11 frames of the 60")));
-  for (const std::string start : {"0.05", "-0.05"}) {
+  for (const std::string start : {"0.05", "-0.05", "0.0004"}) {
     const std::string late = scratch.write("late.tum", start + " 0 0 0 0 0 0 1\n9 0 0 0 0 0 0 1\n");
     EXPECT_THAT(
         message_of<InputError>([&] { prepared(R"({"mesh":"ball","path":{"file":")" + late + "\"}}"); }),

@@ -431,6 +431,14 @@ TEST(StabilitySearch, TapsWithinFrictionAreStuck) {
   EXPECT_GT(row.critical_stiffness_n_per_m, row.exact_n_per_m);
 }
 
+/// Above what the encoders see nothing is shown, but what was clean below stays so.
+TEST(StabilitySearch, WhereEncodersSeeNothingTheCleanRangeEnds) {
+  const StabilityRow row = search({"/device=ideal", "/loop/hand=postural-arm", "/loop/resolution_m=2.3e-5",
+                                   "/loop/push_n=[0, 0, -1]", "/force/maximum_force_n=30"});
+  EXPECT_GE(row.critical_stiffness_n_per_m, 1490.0) << row.clean_until;
+  EXPECT_TRUE(row.has_answer());
+}
+
 /// Also without friction a tap within four counts shows nothing; nor may it leave the contact.
 TEST(StabilitySearch, TapsAreSeenByTheEncoders) {
   const double exact = search(pressed({})).tap_m;

@@ -9,13 +9,13 @@
 namespace lmdbench {
 
 std::span<const std::string_view> assimp_extensions() {
-  static constexpr std::array<std::string_view, 3> EXTENSIONS{"stl", "gltf", "glb"};
+  static constexpr std::array<std::string_view, 2> EXTENSIONS{"gltf", "glb"};
   return EXTENSIONS;
 }
 
 TriangleMesh read_with_assimp(std::string_view /*bytes*/, std::string_view /*extension*/,
-                              const std::string& file) {
-  throw missing_part(PART_ASSIMP, file, "", "a mesh in a format other than OFF, OBJ and PLY");
+                              const std::string& file, std::int64_t /*triangles*/) {
+  throw missing_part(PART_ASSIMP, file, "", "a mesh in a format other than OFF, OBJ, PLY and STL");
 }
 
 }  // namespace lmdbench

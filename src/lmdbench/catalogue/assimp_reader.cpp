@@ -35,9 +35,9 @@ constexpr const char* GLTF_REMEDY =
 constexpr const char* FORMAT_REMEDY = "check that it is a mesh file; convert it to OFF, PLY, OBJ or STL";
 constexpr const char* DAMAGED_REMEDY = "the file is damaged: get or export it again";
 
-constexpr std::array<std::string_view, 3> EXTENSIONS{"stl", "gltf", "glb"};
+constexpr std::array<std::string_view, 2> EXTENSIONS{"gltf", "glb"};
 /// Names of their readers in assimp.
-constexpr std::array<std::string_view, 2> READERS{"Stereolithography (STL) Importer", "glTF2 Importer"};
+constexpr std::array<std::string_view, 1> READERS{"glTF2 Importer"};
 
 // Keeps assimp silent and remembers its first error: several of its readers log one, guess at the
 // data and go on.
@@ -126,6 +126,15 @@ class SceneMerger {
     }
   }
 
+  std::int64_t triangle_count() const {
+    std::int64_t count = 0;
+    for (unsigned int m = 0; m < scene_.mNumMeshes; ++m)
+      count +=
+          std::count_if(scene_.mMeshes[m]->mFaces, scene_.mMeshes[m]->mFaces + scene_.mMeshes[m]->mNumFaces,
+                        [](const aiFace& face) { return face.mNumIndices == 3; });
+    return count;
+  }
+
   TriangleMesh merge() {
     if (scene_.mRootNode != nullptr) add_node(*scene_.mRootNode, aiMatrix4x4());
     return std::move(merged_);
@@ -176,7 +185,8 @@ class SceneMerger {
 };
 
 // Everything that the child does: from bytes to triangles.
-TriangleMesh read_here(std::string_view bytes, std::string_view extension, const std::string& file) {
+TriangleMesh read_here(std::string_view bytes, std::string_view extension, const std::string& file,
+                       std::int64_t triangles) {
   const AssimpSession session;
   Assimp::Importer importer;
   std::vector<std::unique_ptr<Assimp::BaseImporter>> unused;
@@ -200,6 +210,11 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);
   SceneMerger merger(*scene, file);
   merger.check_indices();
+  if (const std::int64_t kept = merger.triangle_count(); kept < triangles)
+    throw InputError(
+        file, "",
+        fmt::format("{} of {} triangles name vertices that are not there", triangles - kept, triangles),
+        DAMAGED_REMEDY);
   return merger.merge();
 }
 
@@ -216,11 +231,11 @@ std::span<const std::byte> bytes_of(const std::vector<Item>& items) {
 }
 
 void answer(const ChildProcess::Send& send, std::string_view bytes, std::string_view extension,
-            const std::string& file) {
+            const std::string& file, std::int64_t triangles) {
   TriangleMesh mesh;
   std::string message;
   try {
-    mesh = read_here(bytes, extension, file);
+    mesh = read_here(bytes, extension, file, triangles);
   } catch (const InputError& error) {
     message = error.what();
   }
@@ -237,9 +252,11 @@ std::span<const std::string_view> assimp_extensions() {
   return EXTENSIONS;
 }
 
-TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension, const std::string& file) {
+TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension, const std::string& file,
+                              std::int64_t triangles) {
   const ChildLimits limits{limit_of(Limit::IMPORT_SECONDS), limit_of(Limit::IMPORT_BYTES)};
-  ChildProcess child([&](const ChildProcess::Send& send) { answer(send, bytes, extension, file); }, limits);
+  ChildProcess child([&](const ChildProcess::Send& send) { answer(send, bytes, extension, file, triangles); },
+                     limits);
   Answer head;
   TriangleMesh mesh;
   std::string message;

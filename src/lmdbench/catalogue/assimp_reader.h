@@ -4,14 +4,15 @@
 
 #include <lmdbench/mesh/triangle_mesh.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace lmdbench {
 
-/// Extensions of the formats read through assimp, lower-case: STL and glTF 2. Its fifty other
-/// readers are not used: they guess at damaged files, and several loop or crash on them.
+/// Extensions of the format read through assimp, lower-case: glTF 2. Its fifty other readers are
+/// not used: they guess at damaged files, and several loop or crash on them.
 std::span<const std::string_view> assimp_extensions();
 
 /// Reads a mesh through assimp in a child process of limited time and memory
@@ -20,8 +21,11 @@ std::span<const std::string_view> assimp_extensions();
 /// @param bytes      the whole file
 /// @param extension  one of `assimp_extensions`
 /// @param file       its name, for messages
+/// @param triangles  of all meshes of the file, as it promises: assimp drops those that name
+///   vertices which are not there
 /// @return all meshes of the file, merged; not welded
 /// @throws InputError when the file is damaged or the child ends without an answer
-TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension, const std::string& file);
+TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension, const std::string& file,
+                              std::int64_t triangles);
 
 }  // namespace lmdbench

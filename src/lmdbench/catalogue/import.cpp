@@ -8,7 +8,7 @@
 #include <lmdbench/catalogue/obj_file.h>
 #include <lmdbench/catalogue/off_file.h>
 #include <lmdbench/catalogue/ply_file.h>
-#include <lmdbench/catalogue/stl_check.h>
+#include <lmdbench/catalogue/stl_file.h>
 #include <lmdbench/mesh/placement.h>
 
 #include <fmt/format.h>
@@ -38,14 +38,13 @@ TriangleMesh read_format(const FileContent& content) {
   if (extension == "off") return parse_off(text, file);
   if (extension == "obj") return parse_obj(text, file);
   if (extension == "ply") return parse_ply(text, file);
+  if (extension == "stl") return parse_stl(content.bytes, file);
   const auto known = assimp_extensions();
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw InputError(file, "", fmt::format("'{}' is no extension of a mesh format that is read", extension),
-                     fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, obj, ply, {})",
+                     fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, obj, ply, stl, {})",
                                  fmt::join(known, ", ")));
-  if (extension == "stl") return read_with_assimp(checked_stl(content.bytes, file), extension, file);
-  check_gltf(content.bytes, file);
-  return read_with_assimp(content.bytes, extension, file);
+  return read_with_assimp(content.bytes, extension, file, check_gltf(content.bytes, file));
 }
 
 std::array<double, 3> position_key(const Vec3& p) {
@@ -95,8 +94,9 @@ FileContent read_mesh_file(const std::filesystem::path& file) {
 TriangleMesh import_unwelded(const FileContent& content) {
   TriangleMesh mesh = read_format(content);
   if (mesh.triangles.empty())
-    throw InputError(content.file.string(), "", "holds no triangle",
-                     "point clouds and lines have no surface: name a mesh");
+    throw InputError(
+        content.file.string(), "", "holds no triangle",
+        "name a mesh: point clouds and lines have no surface; text is read with line feeds, in UTF-8");
   return mesh;
 }
 

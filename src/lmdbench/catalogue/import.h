@@ -9,8 +9,8 @@
 
 namespace lmdbench {
 
-/// Reads a mesh file: OFF, PLY and OBJ by `parse_off`, `parse_ply` and `parse_obj`, STL and glTF 2
-/// through assimp in a child process (`read_with_assimp`).
+/// Reads a mesh file: OFF, PLY, OBJ and STL by `parse_off`, `parse_ply`, `parse_obj` and
+/// `parse_stl`, glTF 2 through assimp in a child process (`read_with_assimp`).
 /// - All meshes of the file are merged, each moved by its node's transform; mirrored ones are
 ///   turned right side out.
 /// - Vertices with bit-identical positions are welded (0 and -0 count as one): formats such as STL

@@ -31,6 +31,8 @@ void for_each_line(std::string_view text, const std::string& file, const auto& t
     const bool goes_on = continues();
     std::string_view word = lines.word();
     if (word.ends_with('\\')) word.remove_suffix(1);
+    if (word == "fo" || word == "F") word = "f";  // of old and of careless writers
+    if (word == "V") word = "v";
     if (std::ranges::find(FREE_FORM, word) != FREE_FORM.end())
       lines.fail(fmt::format("'{}' is part of a free-form curve or surface", word),
                  "export the mesh as polygons");
@@ -95,7 +97,7 @@ TriangleMesh parse_obj(std::string_view text, const std::string& file) {
     }
     corners.clear();
     while (!line.at_line_end()) corners.push_back(read_corner(line, before, mesh.vertices));
-    if (corners.size() < 3) return;
+    if (corners.size() < 3) line.fail(fmt::format("a face of {} corners", corners.size()), CUT_SHORT);
     if (const std::optional<PolygonFault> fault = add_polygon(corners, mesh))
       line.fail(fault->problem, fault->remedy);
   });

@@ -237,9 +237,12 @@ class BodyReader {
   void read_corners(const Element& element, std::int64_t index, TriangleMesh& mesh) {
     const bool is_strip = element.name == "tristrips";
     corners_.clear();
+    bool has_list = false;
     for (const Property& property : element.properties) {
       const bool has_corners =
           property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+      if (has_corners && has_list) fail(element, index, "has two lists of corners", "keep one of them");
+      has_list = has_list || has_corners;
       read_property(property, element, index, [&](double value) {
         if (!has_corners) return;
         if (value != std::floor(value)) fail(element, index, fmt::format("names vertex {}", value), COUNTED);
@@ -251,6 +254,8 @@ class BodyReader {
         corners_.push_back(static_cast<std::int32_t>(value));
       });
     }
+    if (!has_list)
+      fail(element, index, "has no list 'vertex_indices' or 'vertex_index'", "name the list of corners so");
     for (const std::int32_t corner : corners_)
       if (corner >= 0 && !mesh.vertices[static_cast<std::size_t>(corner)].allFinite())
         throw InputError(file_, fmt::format("vertex {}", corner), "has a coordinate that is not finite",
@@ -278,7 +283,8 @@ class BodyReader {
     std::int64_t items = 1;
     if (property.count) {
       const std::optional<double> length = read_number(*property.count, "the length of a list");
-      if (!length || *length < 0.0) fail(element, index, "has no whole number for the length of its list");
+      if (!length || !(*length >= 0.0 && *length < 0x1p32))
+        fail(element, index, "has no whole number for the length of its list");
       items = static_cast<std::int64_t>(*length);
       if (!text_ && static_cast<std::uint64_t>(items) > rest_.size() / property.type.bytes)
         fail(element, index, ENDS_BEFORE);

@@ -27,7 +27,8 @@ double area_of(const Point& a, const Point& b, const Point& c) {
 }
 
 /// The triangles of the first corner's fan in which none is turned over.
-std::vector<Corners> fan(const std::vector<Vec3>& at, const Vec3& area) {
+/// @param least  of a triangle that counts as not turned over, in areas of the polygon
+std::vector<Corners> fan(const std::vector<Vec3>& at, const Vec3& area, double least) {
   const std::size_t count = at.size();
   std::vector<Corners> triangles;
   for (std::size_t first = 0; first < count; ++first) {
@@ -35,7 +36,7 @@ std::vector<Corners> fan(const std::vector<Vec3>& at, const Vec3& area) {
     for (std::size_t k = 1; k + 1 < count; ++k) {
       const Corners corners{first, (first + k) % count, (first + k + 1) % count};
       if ((at[corners[1]] - at[first]).cross(at[corners[2]] - at[first]).dot(area) <
-          ROUNDING * area.squaredNorm())
+          least * area.squaredNorm())
         break;
       triangles.push_back(corners);
     }
@@ -80,7 +81,8 @@ std::vector<Corners> ears(const std::vector<Point>& at) {
   std::size_t next = 0;  // goes round, so that no corner is the hub of a fan of slivers
   const auto cut = [&](double above, bool also_on_sides) {
     for (std::size_t tried = 0; tried < left.size(); ++tried) {
-      const std::size_t k = (next + tried) % left.size();
+      const std::size_t step = (tried + 1) / 2;  // to both sides: the next ear is often near
+      const std::size_t k = (next + (tried % 2 == 1 ? left.size() - step : step)) % left.size();
       const Corners ear = corners_at(k);
       if (!(area_of(at[ear[0]], at[ear[1]], at[ear[2]]) > above) || holds_a_corner(ear, also_on_sides))
         continue;
@@ -120,10 +122,16 @@ std::optional<PolygonFault> add_polygon(std::span<const std::int32_t> polygon, T
   for (const std::int32_t vertex : polygon) at.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
   Vec3 area = Vec3::Zero();
   for (std::size_t k = 1; k + 1 < at.size(); ++k) area += (at[k] - at[0]).cross(at[k + 1] - at[0]);
-  std::vector<Corners> triangles = fan(at, area);
+  // A notch may have less than rounding of the area.
+  std::vector<Corners> triangles = fan(at, area, 0.0);
   if (triangles.empty()) triangles = ears(flattened(at, area));
-  if (triangles.empty())
-    return PolygonFault{"a polygon whose sides cross", "cut it into triangles where it was made"};
+  if (triangles.empty()) triangles = fan(at, area, ROUNDING);
+  const bool folds = area.isZero(0.0) && std::ranges::any_of(triangles, [&](const Corners& t) {
+                       return !(at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]).isZero(0.0);
+                     });
+  if (triangles.empty() || folds)
+    return PolygonFault{"a polygon whose sides cross or touch, or that bends too far",
+                        "cut it into triangles where it was made"};
   for (const auto& [a, b, c] : triangles) mesh.triangles.push_back({polygon[a], polygon[b], polygon[c]});
   return std::nullopt;
 }

@@ -17,8 +17,8 @@ struct PolygonFault {
 };
 
 /// Adds a polygon's triangles, which turn as it does: the fan of the first corner from which none
-/// is turned over, else ears, cut one by one. A triangle turned over by less than 1e-6 of the area
-/// is rounding.
+/// is turned over, else ears, cut one by one, else a fan with triangles turned over by less than
+/// 1e-6 of the area, which is rounding.
 /// @param polygon  vertices of the mesh, at least 3
 /// @return what is wrong, with an unchanged mesh: sides that cross, or a limit of corners or
 ///   triangles

@@ -13,14 +13,22 @@
 
 namespace lmdbench {
 
+namespace {
+
+/// Of forces that cancel, in their lengths.
+constexpr double ROUNDING = 1e-12;
+
+}  // namespace
+
 Wrench WrenchSum::wrench() const {
   Wrench sum{force_, torque_, 0.0};
   const double length = sum.force.stableNorm();
-  if (length > 0.0) {
+  if (length > ROUNDING * lengths_) {
     const Vec3 away_W = sum.force / length;
     sum.stiffness = away_W.dot(stiffness_W_ * away_W);
-  } else if (length == 0.0) {
+  } else if (length >= 0.0) {
     // Balanced forces leave no direction to translate along: the stiffest one is reported.
+    sum.force.setZero();
     sum.stiffness =
         Eigen::SelfAdjointEigenSolver<Mat3>(stiffness_W_, Eigen::EigenvaluesOnly).eigenvalues()[2];
   } else {

@@ -19,22 +19,24 @@ class WrenchSum {
   /// A force of `length` [N] on the moving mesh along -direction, at the pair's point of it.
   void push(const Lmd& lmd, double length) {
     const Vec3 force_W = -length * lmd.direction;
-    force_ += force_W;
-    torque_ += (lmd.point_moving - reference_W_).cross(force_W);
+    add(force_W, (lmd.point_moving - reference_W_).cross(force_W));
   }
   void add(const Vec3& force_W, const Vec3& torque) {
     force_ += force_W;
     torque_ += torque;
+    lengths_ += force_W.stableNorm();
   }
   /// A force along `along` that grows by `stiffness` [N/m] with the way along `measured`.
   void stiffen(const Vec3& along, const Vec3& measured, double stiffness) {
     stiffness_W_ += stiffness * along * measured.transpose();
   }
+  /// Forces that cancel to rounding are none: their sum has no direction.
   Wrench wrench() const;
 
  private:
   Vec3 reference_W_, force_ = Vec3::Zero(), torque_ = Vec3::Zero();
   Mat3 stiffness_W_ = Mat3::Zero();
+  double lengths_ = 0.0;  ///< Sum of those of all forces [N].
 };
 
 }  // namespace lmdbench

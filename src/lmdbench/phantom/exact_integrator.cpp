@@ -3,9 +3,11 @@
 #include <lmdbench/base/contract.h>
 #include <lmdbench/phantom/exact_integrator.h>
 
+#include <Eigen/Eigenvalues>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -87,7 +89,8 @@ AxisFlow lasting_axis_flow(const AxisMatrix& matrix, const std::array<AxisMatrix
 
 namespace {
 
-constexpr int LOOKS = 8;
+constexpr double LOOKS = 8.0;           ///< A period, at least.
+constexpr double LOOKS_A_RADIAN = 4.0;  ///< Of the fastest mode.
 
 /// A device with more events in one servo period shivers about zero within rounding: it is stuck.
 constexpr int MOST_EVENTS = 64;
@@ -103,7 +106,10 @@ ExactIntegrator::ExactIntegrator(const AxisModel& model, double period)
 }
 
 ExactIntegrator::Regime ExactIntegrator::make_regime(const AxisMatrix& matrix) const {
-  return {matrix, lasting_axis_flow(matrix, model_.power, period_), axis_transition(matrix, period_ / LOOKS)};
+  const double fastest =
+      Eigen::EigenSolver<AxisMatrix>(matrix, false).eigenvalues().imag().cwiseAbs().maxCoeff();
+  const double look = period_ / std::max(LOOKS, std::ceil(LOOKS_A_RADIAN * fastest * period_));
+  return {matrix, lasting_axis_flow(matrix, model_.power, period_), look, axis_transition(matrix, look)};
 }
 
 double ExactIntegrator::margin(const AxisState& state, bool stuck) const {
@@ -114,13 +120,12 @@ double ExactIntegrator::margin(const AxisState& state, bool stuck) const {
 
 std::optional<double> ExactIntegrator::event_time(const Regime& regime, const AxisState& state, bool stuck,
                                                   double duration) const {
-  const double look = period_ / LOOKS;
   double before = 0.0;
   double margin_before = margin(state, stuck);
   AxisState there = state;
   while (before < duration) {
-    const bool last = before + look >= duration;
-    const double after = last ? duration : before + look;
+    const bool last = before + regime.look >= duration;
+    const double after = last ? duration : before + regime.look;
     there = last ? AxisState(axis_transition(regime.matrix, after - before) * there)
                  : AxisState(regime.one_look * there);
     const double margin_after = margin(there, stuck);

@@ -39,8 +39,9 @@ AxisFlow lasting_axis_flow(const AxisMatrix& matrix, const std::array<AxisMatrix
 ///  1. A device at rest whose net force is within the friction is stuck until the force exceeds it.
 ///  2. A slipping device has the full friction against its motion until its velocity is zero;
 ///     there the net force decides whether it sticks or turns back.
-/// Bracketing (TOMS 748) between eight points a period finds an event to the last bits of the
-/// period: a velocity that dips below zero and returns within an eighth of it goes unseen.
+/// Bracketing (TOMS 748) between eight points a period, or 25 a swing of the fastest mode, finds an
+/// event to the last bits of the period: a velocity that dips below zero and returns between two of
+/// them goes unseen.
 class ExactIntegrator {
  public:
   /// @param period servo period [s]
@@ -54,7 +55,8 @@ class ExactIntegrator {
   struct Regime {
     AxisMatrix matrix;
     AxisFlow period;      ///< Over the whole servo period.
-    AxisMatrix one_look;  ///< Transition over an eighth of it.
+    double look = 0.0;    ///< Between two points [s].
+    AxisMatrix one_look;  ///< Transition over that.
   };
 
   Regime make_regime(const AxisMatrix& matrix) const;

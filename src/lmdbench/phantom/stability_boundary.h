@@ -22,6 +22,7 @@ namespace lmdbench {
 
 /// A device that also turns and is touched off its centre. The contact sees the point's motion, x +
 /// lever_m angle: the response to the force is H(z) = H_translation(z) + lever_m^2 H_rotation(z).
+/// What the resting load does as the device turns (load times its height) is left out.
 struct SampledTurn {
   DeviceDynamics dynamics;  ///< Inertia [kg m^2] as mass, damping [N m s], hand likewise.
   double lever_m = 0.0;     ///< From the device's centre to the line of the contact's force.

@@ -140,7 +140,7 @@ typedef struct lmdbench_method_entry_type {
   uint32_t abi_major; /* LMDBENCH_METHOD_ABI_MAJOR */
   uint32_t abi_minor;
   uint64_t struct_size; /* sizeof(lmdbench_method_entry_type) */
-  /* The plugin's methods from 0 on; NULL beyond the last. */
+  /* The plugin's methods from 0 on, at most 64; NULL beyond the last. */
   const lmdbench_method* (*get)(uint32_t index);
 } lmdbench_method_entry_type;
 

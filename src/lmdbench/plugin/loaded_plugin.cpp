@@ -73,6 +73,8 @@ LoadedPlugin::LoadedPlugin(const std::string& file) {
          std::to_string(entry_->abi_minor) + " of lmdbench_method.h, and this program takes " +
          std::to_string(LMDBENCH_METHOD_ABI_MAJOR) + ".x: build it with this program's header");
   if (entry_->get == nullptr || entry_->get(0) == nullptr) fail("has no method");
+  if (entry_->get(MOST_METHODS) != nullptr)
+    fail("has more than " + std::to_string(MOST_METHODS) + " methods");
   for (std::uint32_t i = 0; const lmdbench_method* described = method(i); ++i) {
     const std::string which = "method " + std::to_string(i) + " ";
     if (described->struct_size < sizeof(lmdbench_method))
@@ -99,8 +101,7 @@ LoadedPlugin::~LoadedPlugin() {
 }
 
 const lmdbench_method* LoadedPlugin::method(std::uint32_t index) const {
-  constexpr std::uint32_t MOST = 64;  // Against an endless table.
-  return index < MOST ? entry_->get(index) : nullptr;
+  return index < MOST_METHODS ? entry_->get(index) : nullptr;
 }
 
 const lmdbench_counters* LoadedPlugin::counters(const lmdbench_method& method) {

@@ -42,6 +42,8 @@ struct PluginReply {
 /// A shared object that keeps to the interface as far as its tables tell.
 class LoadedPlugin {
  public:
+  static constexpr std::uint32_t MOST_METHODS = 64;  ///< Against an endless table.
+
   /// @throws std::runtime_error saying what is wrong, and what to do, without the file's name
   explicit LoadedPlugin(const std::string& file);
   ~LoadedPlugin();

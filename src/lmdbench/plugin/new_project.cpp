@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/atomic_file.h>
 #include <lmdbench/base/error.h>
+#include <lmdbench/methods/registry.h>
 #include <lmdbench/plugin/new_project.h>
 #include <lmdbench/plugin/template_files.h>
 
@@ -29,8 +30,8 @@ std::string new_plugin(const std::filesystem::path& folder, const std::string& l
   const fs::path whole = fs::absolute(folder).lexically_normal();
   std::string name =
       whole.has_filename() ? whole.filename().string() : whole.parent_path().filename().string();
-  static const std::set<std::string> TARGETS{"all",     "clean",   "edit_cache",    "help",
-                                             "install", "package", "rebuild_cache", "test"};
+  static const std::set<std::string> TARGETS{"all",     "clean",      "edit_cache",    "help", "install",
+                                             "package", "preinstall", "rebuild_cache", "test"};
   if (TARGETS.contains(name))
     throw UsageError(folder.string(), "",
                      "the folder's name becomes a target's, and CMake has one of this name",
@@ -38,6 +39,11 @@ std::string new_plugin(const std::filesystem::path& folder, const std::string& l
   if (!std::regex_match(name, std::regex("[a-z][a-z0-9_-]{0,40}")))
     throw UsageError(folder.string(), "", "the folder's name becomes the method's, and cannot be one",
                      "take up to 41 small letters, digits, '-' and '_'");
+  const std::vector<std::string> taken = method_names();
+  if (std::ranges::find(taken, name) != taken.end())
+    throw UsageError(folder.string(), "",
+                     "the folder's name becomes the method's, and there is one of this name",
+                     "call it otherwise");
   std::error_code error;
   if (fs::exists(fs::symlink_status(folder, error)) &&
       !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))

@@ -27,6 +27,8 @@ constexpr std::size_t MOST_CONVEX_TRIANGLES = 2000;
 /// Every so many poses of a made path are searched for contacts.
 constexpr std::size_t CONTACT_STRIDE = 5;
 
+/// Of a mover's first time against the held object's, in frames: rounding of times in files.
+constexpr double MOST_SHIFT = 0.01;
 /// Movers times frames: bounds memory and result.
 constexpr std::size_t MOST_MOVER_POSES = 10000000;
 
@@ -181,7 +183,7 @@ MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& m
         const FramePath its =
             read_path(object.motion, "path:" + object.place.substr(1), experiment.frame_rate_hz, path.size());
         const double start = path.front().time, its_start = its.frames.front().time;
-        if (std::abs(its_start - start) * experiment.frame_rate_hz > 0.5)
+        if (std::abs(its_start - start) * experiment.frame_rate_hz > MOST_SHIFT)
           throw InputError(experiment.file.string(), object.motion.path_place,
                            fmt::format("begins at {:.6f} s, but the path of the held object at {:.6f} s",
                                        its_start, start),

@@ -361,7 +361,7 @@ std::optional<double> ResultReader::real_attribute(const std::string& object, co
 
 void refuse_sweep(const ResultReader& file) {
   if (file.has("/sweep"))
-    throw InputError(
+    throw UsageError(
         file.file().string(), "/sweep", "a sweep of lmdbench work-precision, not the result of a run",
         "give results of lmdbench run; lmdbench report and scripts/figures/sweep.py read sweeps");
 }

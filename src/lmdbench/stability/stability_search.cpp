@@ -35,8 +35,9 @@ class BudgetSpent {};
 enum class Verdict : std::uint8_t {
   CLEAN,
   UNCLEAN,
-  STUCK,   ///< Held by friction or unseen by encoders: shows nothing.
-  SINKING  ///< Too soft to carry the push.
+  STUCK,   ///< Held by friction: shows nothing.
+  UNSEEN,  ///< By encoders: shows nothing.
+  SINKING  ///< Too soft to carry the push, or to carry it unsaturated.
 };
 
 /// A search on one method.
@@ -82,6 +83,7 @@ class Search {
       row.clean_until = "never";
     } else {
       const bool known = std::isfinite(row.exact_n_per_m) && row.exact_n_per_m > 0.0;
+      judge_trial(scale, given);
       search_without_friction(known ? scale * row.exact_n_per_m / given.stiffness_n_per_m : scale, row);
     }
   }
@@ -97,27 +99,48 @@ class Search {
       high = std::exchange(low, low / BRACKET_FACTOR);
       growth_high = std::exchange(growth_low, growth(low));
     }
-    for (int i = 0; i < MOST_BRACKETINGS && growth_high <= 0.0; ++i) {
+    for (int i = 0; i < MOST_BRACKETINGS && growth_high <= 0.0 && !ends_unseen(); ++i) {
       low = std::exchange(high, high * BRACKET_FACTOR);
       growth_low = std::exchange(growth_high, growth(high));
     }
+    if (ends_unseen()) return end_where_encoders_see(high, row);
     if (growth_low < 0.0 && growth_high > 0.0) refine(low, high, growth_low, growth_high);
-    row.clean_until = best_ == 0.0 ? "never" : growth_high <= 0.0 ? "nothing" : broken_by_;
+    row.clean_until = best_ == 0.0         ? (last_ == Verdict::UNSEEN ? "within_counts" : "never")
+                      : growth_high <= 0.0 ? "nothing"
+                                           : broken_by_;
+  }
+
+  /// Whether the last trial shows nothing, but one before it was clean.
+  bool ends_unseen() const { return last_ == Verdict::UNSEEN && best_ > 0.0; }
+
+  /// Between the largest clean scale and one at which encoders see no tap.
+  void end_where_encoders_see(double unseen, StabilityRow& row) {
+    row.clean_until = "within_counts";
+    for (double low = best_scale_; unseen > low * (1.0 + FRICTION_TOLERANCE);) {
+      const double middle = std::sqrt(low * unseen);
+      const Verdict at_middle = verdict(middle);
+      (at_middle == Verdict::CLEAN ? low : unseen) = middle;
+      if (at_middle == Verdict::UNCLEAN) row.clean_until = broken_by_;
+    }
   }
 
   void search_with_friction(double scale, const StabilityTrial& given, StabilityRow& row) {
     double low = scale;
-    Verdict at_low = judge_trial(low, given);
+    const Verdict at_first = judge_trial(low, given);
+    Verdict at_low = at_first;
     double high = low;
     Verdict at_high = at_low;
     for (int i = 0; i < MOST_BRACKETINGS && at_low == Verdict::UNCLEAN; ++i) {
       high = std::exchange(low, low / FRICTION_FACTOR);
       at_high = std::exchange(at_low, verdict(low));
     }
-    for (int i = 0; i < MOST_BRACKETINGS && at_low != Verdict::UNCLEAN && at_high != Verdict::UNCLEAN; ++i) {
+    for (int i = 0;
+         i < MOST_BRACKETINGS && at_low != Verdict::UNCLEAN && at_high != Verdict::UNCLEAN && !ends_unseen();
+         ++i) {
       if (high > low) low = high, at_low = at_high;
       at_high = verdict(high = low * FRICTION_FACTOR);
     }
+    if (ends_unseen()) return end_where_encoders_see(high, row);
     while (at_low != Verdict::UNCLEAN && at_high == Verdict::UNCLEAN &&
            high > low * (1.0 + FRICTION_TOLERANCE)) {
       const double middle = std::sqrt(low * high);
@@ -133,7 +156,9 @@ class Search {
       row.clean_until = broken_by_;
     } else {
       best_ = 0.0;  // below the band proves nothing above it
-      row.clean_until = at_low == Verdict::STUCK ? "stuck" : "never";
+      row.clean_until = at_first == Verdict::STUCK  ? "stuck"
+                        : at_low == Verdict::UNSEEN ? "within_counts"
+                                                    : "never";
     }
   }
 
@@ -159,12 +184,16 @@ class Search {
   }
 
   /// Judges a trial and remembers its result.
-  Verdict judge_trial(double scale, const StabilityTrial& trial) {
-    if (!trial.carried) return Verdict::SINKING;
-    if (trial.stuck || trial.within_counts) return Verdict::STUCK;
+  Verdict judge_trial(double scale, const StabilityTrial& trial) { return last_ = judged(scale, trial); }
+
+  Verdict judged(double scale, const StabilityTrial& trial) {
+    if (!trial.carried || !trial.in_contact) return Verdict::SINKING;
+    if (trial.stuck) return Verdict::STUCK;
+    if (trial.within_counts) return Verdict::UNSEEN;
     if (!trial.clipped && trial.outcome.clean()) {
       if (trial.stiffness_n_per_m > best_) {
         best_ = trial.stiffness_n_per_m;
+        best_scale_ = scale;
         tap_ = trial.tap_m;
       }
       return Verdict::CLEAN;
@@ -185,7 +214,7 @@ class Search {
     const StabilityTrial trial = try_scale(scale);
     const Verdict said = judge_trial(scale, trial);
     if (said == Verdict::SINKING) return SINKING_GROWTH;
-    if (said == Verdict::STUCK) return CALM_GROWTH;
+    if (said == Verdict::STUCK || said == Verdict::UNSEEN) return CALM_GROWTH;
     if (trial.clipped) return CLIPPED_GROWTH;
     return trial.outcome.growth == 0.0 ? CALM_GROWTH : trial.outcome.growth;
   }
@@ -204,7 +233,9 @@ class Search {
   StabilityBudget budget_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::int64_t trials_ = 0;
-  double best_ = 0.0;   ///< Largest clean stiffness.
+  Verdict last_ = Verdict::SINKING;
+  double best_ = 0.0;  ///< Largest clean stiffness.
+  double best_scale_ = 0.0;
   double tap_ = UNSET;  ///< Of the trial that found it.
   double worst_ = 0.0;  ///< Smallest unclean one; 0: none yet.
   std::string broken_by_;

@@ -48,8 +48,9 @@ struct StabilityRow {
   double bound_n_per_m = UNSET;  ///< The sufficient bound b / (T/2 + t_d).
   /// End of the clean range: the fastest growing measure just above it ("amplitude", "energy" or
   /// "force_above_30_hz"); "limit_cycle": a device with friction goes on swinging; "device_force":
-  /// the device clips the resting force or torque first; "nothing": no end found. Without a
-  /// stiffness (has_answer): "never": none was clean (or none that carries the push); "no_contact":
+  /// the device clips the resting force or torque first; "within_counts": above it a contact leaves
+  /// less motion than encoders count; "nothing": no end found. Without a stiffness (has_answer):
+  /// "never": none was clean (or none that carries the push); "no_contact":
   /// no force and stiffness at the first pose, or within the push's reach; "saturated": nearer than
   /// the saturation distance; "gives_way": the force does not fall along itself; "stuck": friction
   /// holds against every tap that the contact bears; "within_counts": it leaves less motion than

@@ -286,10 +286,10 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   trial.in_contact = trial.stiffness_n_per_m > 0.0 && at_rest.force.norm() > 0.0 && rest.range_m > 0.0;
   trial.saturated = !trial.in_contact && at_rest.minimum_distance <= method.profile.saturation_distance;
   trial.gives_way = !trial.in_contact && !trial.saturated && at_rest.force.norm() > 0.0;
-  if (!trial.in_contact || trial.clipped) return trial;
+  if (!trial.in_contact) return trial;
   double felt_mass = moving_mass(loop.dynamics);
   if (loop.rotation) {
-    rest.lever_W = at_rest.force.cross(rest.rendered.torque) / at_rest.force.squaredNorm();
+    rest.lever_W = at_rest.force.cross(at_rest.torque) / at_rest.force.squaredNorm();
     trial.lever_m = rest.lever_W.norm();
     const double mass = felt_mass;
     const double inertia = moving_mass(loop.rotation->dynamics);
@@ -297,6 +297,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
     rest.mass_share = felt_mass / mass;
     rest.inertia_ratio = felt_mass / inertia;
   }
+  if (trial.clipped) return trial;
   rest.natural_frequency = std::sqrt(trial.stiffness_n_per_m / felt_mass);
   rest.friction = has_friction(loop);
   rest.counts = loop.resolution_m > 0.0 || (loop.rotation && loop.rotation->resolution_rad > 0.0);
@@ -314,6 +315,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
 
   auto state = std::make_shared<TrialState>();
   DriverInput tapped = held;
+  tapped.device = input.device;
   tapped.frames = hold_frames + (rest.friction ? MOST_FRICTION_FRAMES : MOST_SWING_FRAMES);
   tapped.make_poses = [&, state] {
     return std::make_unique<TrialPoses>(loop, rest, input.reference_M, 1.0 / input.frame_rate_hz, hold_frames,

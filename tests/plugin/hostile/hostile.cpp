@@ -41,6 +41,8 @@
 #define TWICE 19
 #define GROWS 20
 #define SLOW 21
+#define ENDLESS_SCHEMA 22
+#define ENDLESS_TABLE 23
 
 namespace {
 
@@ -158,7 +160,10 @@ __attribute__((constructor)) void set_fast_math() {
 }
 #endif
 
-constexpr const char* NO_SCHEMA = R"({"x": {"type": "nonsense", "description": "none", "default": 1}})";
+[[maybe_unused]] constexpr const char* OF_ITSELF =
+    R"({"x": {"$ref": "#/properties/x", "type": "integer", "description": "itself", "default": 1}})";
+[[maybe_unused]] constexpr const char* NO_SCHEMA =
+    R"({"x": {"type": "nonsense", "description": "none", "default": 1}})";
 
 constexpr lmdbench_method METHOD = {sizeof(lmdbench_method),
                                     NAME,
@@ -168,14 +173,16 @@ constexpr lmdbench_method METHOD = {sizeof(lmdbench_method),
                                     : KIND == NO_PROMISE || KIND == PUSHES ? LMDBENCH_PROMISE_FORCE_ONLY
                                                                            : LMDBENCH_PROMISE_APPROXIMATION,
                                     0,
-                                    KIND == BAD_SCHEMA ? NO_SCHEMA : nullptr,
+                                    KIND == BAD_SCHEMA       ? NO_SCHEMA
+                                    : KIND == ENDLESS_SCHEMA ? OF_ITSELF
+                                                             : nullptr,
                                     create,
                                     search,
                                     destroy,
                                     extension};
 
 const lmdbench_method* get(std::uint32_t index) {
-  return index == 0 || (KIND == TWICE && index == 1) ? &METHOD : nullptr;
+  return index == 0 || (KIND == TWICE && index == 1) || KIND == ENDLESS_TABLE ? &METHOD : nullptr;
 }
 
 }  // namespace

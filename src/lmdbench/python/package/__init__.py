@@ -59,7 +59,7 @@ class FeatureKind(enum.IntEnum):
 class Mesh:
     """A mesh made ready for searches; immutable, to be used in any number of them.
 
-    Mesh(file)                  OFF; PLY, OBJ, STL or glTF 2 where the build has assimp. Vertices of one position are
+    Mesh(file)                  OFF, PLY, OBJ, STL; glTF 2 where the build has assimp. Vertices of one position are
                                 welded, those without triangles left out.
     Mesh(vertices, triangles)   (V, 3) metres and (T, 3) whole numbers, counter-clockwise seen from outside; features count
                                 the caller's rows. Vertices without triangles count for nothing, and stand at a corner of

@@ -15,6 +15,7 @@ import pandas as pd
 from . import InputError
 from .result_file import Result, ResultError, open_h5
 
+OF_SEARCHES = ("global_frame", "candidates", "kept_after_reduction")
 AXES = {2: ("_0", "_1"), 3: ("_x", "_y", "_z"), 4: ("_x", "_y", "_z", "_w")}
 
 
@@ -64,7 +65,7 @@ class ResultFrames:
         group = self._group(method)
         if "global_frame" not in group:
             return pd.DataFrame()
-        columns = {name: group[name] for name in ("global_frame", "candidates", "kept_after_reduction") if name in group}
+        columns = {name: group[name] for name in OF_SEARCHES if name in group}
         if "global_counters" in group:
             columns.update({f"global_counters/{name}": item for name, item in _datasets(group["global_counters"]).items()})
         return _frame(columns, group["global_frame"].shape[0])
@@ -117,7 +118,7 @@ class ResultFrames:
         return self.result.h5[f"/methods/{label}"]
 
     def _table(self, group: h5py.Group, rows: int, also: dict[str, h5py.Dataset]) -> pd.DataFrame:
-        columns = {**also, **_datasets(group)}
+        columns = {**also, **{name: item for name, item in _datasets(group).items() if name not in OF_SEARCHES}}
         if "counters" in group:
             columns.update({f"counters/{name}": item for name, item in _datasets(group["counters"]).items()})
         return _frame(columns, rows)
