@@ -67,7 +67,8 @@ std::int64_t triangles_of(const Json& primitive, const std::vector<Json>& access
   const Json of = primitive.contains("indices") ? named(primitive, "indices", accessors)
                                                 : named(attributes, "POSITION", accessors);
   const Json count = of.is_object() ? of.value("count", Json()) : Json();
-  const Json mode = primitive.value("mode", Json(TRIANGLES));
+  const Json given = primitive.value("mode", Json(TRIANGLES));
+  const std::int64_t mode = given.is_number_integer() ? given.get<std::int64_t>() : TRIANGLES;
   if (!count.is_number_unsigned() || count > limit_of(Limit::TRIANGLES)) return 0;
   const auto corners = count.get<std::int64_t>();
   if (mode == TRIANGLES) return corners / 3;
