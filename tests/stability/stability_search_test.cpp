@@ -431,6 +431,27 @@ TEST(StabilitySearch, TapsWithinFrictionAreStuck) {
   EXPECT_GT(row.critical_stiffness_n_per_m, row.exact_n_per_m);
 }
 
+/// The wall moves, too, and beside it a pair stands at a quarter of the cutoff: no business of the
+/// held mesh.
+TEST(StabilitySearch, OtherPairsDoNotChangeTheTap) {
+  const auto slab = [](double x, const std::string& more) {
+    return fmt::format(R"({{"mesh": "slab", "pose": {{"translation_m": [{}, 0, 0]}}{}}})", x, more);
+  };
+  const std::string rests = R"(, "path": {"way_diagonals": 0, "turn_rad": 0, "period_s": 1})";
+  const auto with = [&](double height) {
+    return search(
+        {"/fixed=[" + slab(50.0, "") + "]",
+         "/movers=[" + slab(0.0, rests) +
+             fmt::format(
+                 R"(, {{"mesh": "ball", "diagonal_m": 0.02, "pose": {{"translation_m": [50, 0, {}]}}{}}}])",
+                 height, rests)});
+  };
+  const StabilityRow alone = with(5.0), beside = with(0.11077350269);
+  EXPECT_NEAR(alone.critical_stiffness_n_per_m, alone.exact_n_per_m, 1e-3 * alone.exact_n_per_m);
+  EXPECT_NEAR(beside.critical_stiffness_n_per_m, alone.critical_stiffness_n_per_m,
+              1e-6 * alone.exact_n_per_m);
+}
+
 /// Above what the encoders see nothing is shown, but what was clean below stays so.
 TEST(StabilitySearch, WhereEncodersSeeNothingTheCleanRangeEnds) {
   const StabilityRow row = search({"/device=ideal", "/loop/hand=postural-arm", "/loop/resolution_m=2.3e-5",

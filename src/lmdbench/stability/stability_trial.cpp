@@ -136,11 +136,23 @@ class TrialPoses final : public PoseSource {
   double last_lively_ = 0.0;
 };
 
-/// The last of the frames with the method held at a pose.
+/// The last of the frames with the method held at a pose; its distance is that of the held mesh,
+/// not of all that could move.
 FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& method,
                     const DriverChoice& driver) {
   held.poses.front() = X_WM;
-  return run_lockstep({method}, held, driver, {}).front().frames.back();
+  const Scene& scene = method.scene;
+  if (scene.several_move()) held.keep_lmds = [](std::int64_t) { return true; };
+  const MethodRecord record = run_lockstep({method}, held, driver, {}).front();
+  FrameRecord last = record.frames.back();
+  if (!scene.several_move()) return last;
+  LmdSet own = record.lmds.rbegin()->second;
+  std::erase_if(own, [&](const Lmd& lmd) {
+    const ObjectPair pair = ObjectPair::of(lmd.fixed_body, scene);
+    return pair.mover != scene.held && pair.other != scene.held;
+  });
+  last.minimum_distance = minimum_distance(own);
+  return last;
 }
 
 /// The force's slope along itself, by central difference. Where the method's set changes within the
