@@ -115,8 +115,9 @@ part() {
 # is_done VERDICT PART: made of as many poses or minutes as asked for, with any seed. `reference` is
 # asked each time, as it reads pages.
 is_done() {
-  local asked
-  [[ -s $1 && $2 != reference ]] && IFS='|' read -r _ _ _ _ asked _ <"$1" && [[ ${asked%, seed*} == "$(conditions "$2" | sed 's/, seed.*//')" ]]
+  local asked wanted
+  wanted="$(conditions "$2")"
+  [[ -s $1 && $2 != reference ]] && IFS='|' read -r _ _ _ _ asked _ <"$1" && [[ ${asked%seed*} == "${wanted%seed*}" ]]
 }
 
 if [[ ${1:-} == --list ]]; then

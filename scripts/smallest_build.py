@@ -121,7 +121,7 @@ def check_messages(check, full, folder):
     check.that(done.returncode == 0, f"concave.obj: exit code {done.returncode}, {done.stderr.strip()}")
     bad = {"index.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4"),
            "curve.obj": ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ncurv 0 1 1 2\n", "curv"),
-           "number.obj": ("v 0 0 zero\n", "line 1"), "short.obj": ("v 0 0 0\nv 1 0\nf 1 2\n", "line 2")}
+           "number.obj": ("v 0 0 zero\n", "line 1"), "short.obj": ("v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3")}
     for name, (text, part) in bad.items():
         Path(folder, name).write_text(text, encoding="ascii")
         done = run(PROGRAM, ["mesh", "info", f"./{name}"], folder)

@@ -4,17 +4,10 @@
 #include <lmdbench/base/build_info.h>
 #include <lmdbench/catalogue/assimp_reader.h>
 
-#include <array>
-
 namespace lmdbench {
 
-std::span<const std::string_view> assimp_extensions() {
-  static constexpr std::array<std::string_view, 2> EXTENSIONS{"gltf", "glb"};
-  return EXTENSIONS;
-}
-
 TriangleMesh read_with_assimp(std::string_view /*bytes*/, std::string_view /*extension*/,
-                              const std::string& file, std::int64_t /*triangles*/) {
+                              const std::string& file) {
   throw missing_part(PART_ASSIMP, file, "", "a mesh in a format other than OFF, OBJ, PLY and STL");
 }
 

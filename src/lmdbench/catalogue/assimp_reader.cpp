@@ -4,6 +4,7 @@
 #include <lmdbench/base/error.h>
 #include <lmdbench/base/limits.h>
 #include <lmdbench/catalogue/assimp_reader.h>
+#include <lmdbench/catalogue/gltf_check.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -35,9 +36,8 @@ constexpr const char* GLTF_REMEDY =
 constexpr const char* FORMAT_REMEDY = "check that it is a mesh file; convert it to OFF, PLY, OBJ or STL";
 constexpr const char* DAMAGED_REMEDY = "the file is damaged: get or export it again";
 
-constexpr std::array<std::string_view, 2> EXTENSIONS{"gltf", "glb"};
-/// Names of their readers in assimp.
-constexpr std::array<std::string_view, 1> READERS{"glTF2 Importer"};
+/// Name of their reader in assimp.
+constexpr std::string_view READER = "glTF2 Importer";
 
 // Keeps assimp silent and remembers its first error: several of its readers log one, guess at the
 // data and go on.
@@ -185,14 +185,14 @@ class SceneMerger {
 };
 
 // Everything that the child does: from bytes to triangles.
-TriangleMesh read_here(std::string_view bytes, std::string_view extension, const std::string& file,
-                       std::int64_t triangles) {
+TriangleMesh read_here(std::string_view bytes, std::string_view extension, const std::string& file) {
+  const std::int64_t promised = check_gltf(bytes, file);
   const AssimpSession session;
   Assimp::Importer importer;
   std::vector<std::unique_ptr<Assimp::BaseImporter>> unused;
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const std::string_view name = importer.GetImporterInfo(i)->mName;
-    if (std::find(READERS.begin(), READERS.end(), name) != READERS.end()) continue;
+    if (name == READER) continue;
     unused.emplace_back(importer.GetImporter(i));
     importer.UnregisterLoader(unused.back().get());
   }
@@ -210,10 +210,11 @@ TriangleMesh read_here(std::string_view bytes, std::string_view extension, const
   if (!session.first_error().empty()) throw InputError(file, "", session.first_error(), DAMAGED_REMEDY);
   SceneMerger merger(*scene, file);
   merger.check_indices();
-  if (const std::int64_t kept = merger.triangle_count(); kept < triangles)
+  // assimp drops those that name vertices which are not there.
+  if (const std::int64_t kept = merger.triangle_count(); kept < promised)
     throw InputError(
         file, "",
-        fmt::format("{} of {} triangles name vertices that are not there", triangles - kept, triangles),
+        fmt::format("{} of {} triangles name vertices that are not there", promised - kept, promised),
         DAMAGED_REMEDY);
   return merger.merge();
 }
@@ -231,11 +232,11 @@ std::span<const std::byte> bytes_of(const std::vector<Item>& items) {
 }
 
 void answer(const ChildProcess::Send& send, std::string_view bytes, std::string_view extension,
-            const std::string& file, std::int64_t triangles) {
+            const std::string& file) {
   TriangleMesh mesh;
   std::string message;
   try {
-    mesh = read_here(bytes, extension, file, triangles);
+    mesh = read_here(bytes, extension, file);
   } catch (const InputError& error) {
     message = error.what();
   }
@@ -248,15 +249,9 @@ void answer(const ChildProcess::Send& send, std::string_view bytes, std::string_
 
 }  // namespace
 
-std::span<const std::string_view> assimp_extensions() {
-  return EXTENSIONS;
-}
-
-TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension, const std::string& file,
-                              std::int64_t triangles) {
+TriangleMesh read_with_assimp(std::string_view bytes, std::string_view extension, const std::string& file) {
   const ChildLimits limits{limit_of(Limit::IMPORT_SECONDS), limit_of(Limit::IMPORT_BYTES)};
-  ChildProcess child([&](const ChildProcess::Send& send) { answer(send, bytes, extension, file, triangles); },
-                     limits);
+  ChildProcess child([&](const ChildProcess::Send& send) { answer(send, bytes, extension, file); }, limits);
   Answer head;
   TriangleMesh mesh;
   std::string message;

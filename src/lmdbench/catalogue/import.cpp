@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/base/error.h>
 #include <lmdbench/catalogue/assimp_reader.h>
-#include <lmdbench/catalogue/gltf_check.h>
 #include <lmdbench/catalogue/import.h>
 #include <lmdbench/catalogue/mesh_limits.h>
 #include <lmdbench/catalogue/obj_file.h>
@@ -39,12 +38,11 @@ TriangleMesh read_format(const FileContent& content) {
   if (extension == "obj") return parse_obj(text, file);
   if (extension == "ply") return parse_ply(text, file);
   if (extension == "stl") return parse_stl(content.bytes, file);
-  const auto known = assimp_extensions();
-  if (std::find(known.begin(), known.end(), extension) == known.end())
+  if (std::ranges::find(ASSIMP_EXTENSIONS, extension) == ASSIMP_EXTENSIONS.end())
     throw InputError(file, "", fmt::format("'{}' is no extension of a mesh format that is read", extension),
                      fmt::format("convert it to OFF, PLY, OBJ or STL (extensions off, obj, ply, stl, {})",
-                                 fmt::join(known, ", ")));
-  return read_with_assimp(content.bytes, extension, file, check_gltf(content.bytes, file));
+                                 fmt::join(ASSIMP_EXTENSIONS, ", ")));
+  return read_with_assimp(content.bytes, extension, file);
 }
 
 std::array<double, 3> position_key(const Vec3& p) {

@@ -57,6 +57,9 @@ class LineReader {
     return number<Number>(what, word());
   }
 
+  /// The nearest number of single precision. Through double, as what is below its least one is 0.
+  double single(const char* what) { return static_cast<double>(static_cast<float>(number<double>(what))); }
+
   /// @param what the number is, for messages
   /// @throws InputError naming the line, unless the text is a number and nothing else
   template <typename Number>

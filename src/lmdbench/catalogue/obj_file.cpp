@@ -57,8 +57,8 @@ Vec3 read_position(LineReader& line) {
   Vec3 position = Vec3::Zero();
   int numbers = 0;
   for (; numbers < 3 || !line.at_line_end(); ++numbers) {
-    const auto number = line.number<double>("a coordinate");
-    if (numbers < 3) position[numbers] = static_cast<double>(static_cast<float>(number));
+    const double number = line.single("a coordinate");
+    if (numbers < 3) position[numbers] = number;
   }
   // A weight or a colour may follow.
   if (numbers != 3 && numbers != 4 && numbers != 6) line.fail(fmt::format("a vertex of {} numbers", numbers));

@@ -300,8 +300,7 @@ class BodyReader {
   std::optional<double> read_number(const ScalarType& type, const char* what) {
     if (text_) {
       if (type.is_integer) return static_cast<double>(text_->number<std::int64_t>(what));
-      const auto value = text_->number<double>(what);
-      return type.bytes == 4 ? static_cast<double>(static_cast<float>(value)) : value;
+      return type.bytes == 4 ? text_->single(what) : text_->number<double>(what);
     }
     if (rest_.size() < type.bytes) return std::nullopt;
     std::uint64_t bits = 0;

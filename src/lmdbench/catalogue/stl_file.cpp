@@ -41,8 +41,7 @@ TriangleMesh parse_text(std::string_view text, const std::string& file) {
     while (!word.empty()) {
       const bool is_vertex = word == "vertex";
       if (is_vertex && count == 3) lines.fail("a facet of more than three vertices");
-      for (int axis = 0; is_vertex && axis < 3; ++axis)
-        corners[count][axis] = static_cast<double>(static_cast<float>(lines.number<double>("a coordinate")));
+      for (int axis = 0; is_vertex && axis < 3; ++axis) corners[count][axis] = lines.single("a coordinate");
       if (is_vertex && !corners[count].allFinite())
         lines.fail("a coordinate is not finite", "correct or remove it");
       if (is_vertex) ++count;

@@ -83,7 +83,7 @@ void RealtimeRecorder::take(const TickRecord& tick) {
     record.poses.push_back(tick.pose);
     record.loop.push_back(tick.loop);
   }
-  if (has_last_list_) record.lmds.emplace(frame, last_list_);
+  if (tick.list >= 0) record.lmds.emplace(frame, last_list_);
   clock.frame_source.push_back(FrameSource::TICK);
   frame_complete();
 }
@@ -94,9 +94,8 @@ void RealtimeRecorder::note_times(double update_s, double following_s) {
 }
 
 void RealtimeRecorder::take_list(const TickRecord& tick) {
-  has_last_list_ = tick.list >= 0;
   if (tick.list == TickRecord::NO_ROOM) ++clock.lmd_lists_lost;
-  if (!has_last_list_) return;
+  if (tick.list < 0) return;
   last_list_.clear();
   Lmd lmd;
   for (std::int64_t i = 0; i < tick.list && queues_.lists.pop(lmd); ++i) last_list_.push_back(lmd);
@@ -115,7 +114,7 @@ void RealtimeRecorder::hold_until(std::int64_t frame, FrameSource source) {
       record.loop.push_back(held_.loop);
     }
     // What the device held is known if the previous tick gave its list.
-    if (source == FrameSource::SKIPPED && has_last_list_ && kept_[at] != 0)
+    if (source == FrameSource::SKIPPED && held_.list >= 0 && kept_[at] != 0)
       record.lmds.emplace(static_cast<std::int64_t>(at), last_list_);
     clock.frame_source.push_back(source);
     frame_complete();

@@ -62,9 +62,8 @@ class RealtimeRecorder {
   std::size_t method_;
   std::int64_t next_sequence_ = 0;
   std::deque<SearchTurn> waiting_;  ///< Not yet in the record: one a frame.
-  TickRecord held_;                 ///< Frame, pose and loop of the last tick.
+  TickRecord held_;                 ///< The last tick, with the age of what is held since.
   LmdSet last_list_;
-  bool has_last_list_ = false;  ///< Of the last tick.
   std::atomic<std::int64_t> done_{0};
 };
 

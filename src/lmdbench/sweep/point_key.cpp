@@ -108,10 +108,8 @@ namespace {
 using Question = std::map<std::string, std::string>;
 
 Question question_of(const SweepPoint& point) {
-  nlohmann::json experiment = nlohmann::json::parse(point.truth.resolved_json);
-  for (const char* key :
-       {"$schema", "name", "title", "methods", "driver", "probes", "record", "plan", "limits"})
-    experiment.erase(key);
+  nlohmann::json experiment = scene_of(point.truth);
+  experiment.erase("plan");  // whose rules change no bit
   Question question;
   const nlohmann::json flat = experiment.flatten();  // outlives its items
   for (const auto& [place, value] : flat.items())
