@@ -162,6 +162,17 @@ TEST(ImportTest, IsSilentOnStandardOutput) {
 
 // A glTF node tree: the same triangle once as it is, once moved, and once mirrored in x, which must
 // not turn it inside out.
+/// Of a triangle's corners and indices.
+std::string gltf_with(const std::string& of_corners, const std::string& of_view = R"("byteOffset": 0)") {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, )" +
+         of_corners + R"(}, {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+             "bufferViews": [{"buffer": 0, "byteLength": 36, )" +
+         of_view + R"(}, {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+             "buffers": [{"byteLength": 42, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]})";
+}
+
 TEST(ImportTest, MergesNodesWithTheirTransforms) {
   const ScratchDirectory folder;
   const std::filesystem::path file = folder.write("scene.gltf", R"({
@@ -182,6 +193,33 @@ TEST(ImportTest, MergesNodesWithTheirTransforms) {
   const Triangle mirrored = mesh.triangle(2);
   EXPECT_THAT(mirrored, ::testing::UnorderedElementsAre(Vec3(0, 0, 5), Vec3(-1, 0, 5), Vec3(0, 1, 5)));
   EXPECT_GT((mirrored[1] - mirrored[0]).cross(mirrored[2] - mirrored[0]).z(), 0.0);
+}
+
+/// In want of the end of "values".
+const std::string SPARSE =
+    R"("indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0)";
+
+/// Of sparse corners those that are named stand elsewhere: here all three, in place of themselves.
+TEST(ImportTest, SparseCornersOfAGltfAreRead) {
+  const ScratchDirectory folder;
+  const TriangleMesh mesh = import_mesh(
+      folder.write("a.gltf", gltf_with(R"("type": "VEC3", "sparse": {"count": 3, )" + SPARSE + "}}")));
+  EXPECT_THAT(mesh.triangle(0), ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
+}
+
+/// A mesh that no node shows and one of another scene are none of the file's.
+TEST(ImportTest, TheSceneThatAGltfShowsIsRead) {
+  const ScratchDirectory folder;
+  std::string text = gltf_with(R"("type": "VEC3")");
+  EXPECT_EQ(import_mesh(folder.write("one.gltf", text)).triangles.size(), 1u);
+  const std::string mesh = R"({"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]})";
+  text.replace(text.find(mesh), mesh.size(), mesh + ", " + mesh + ", " + mesh);
+  EXPECT_EQ(import_mesh(folder.write("unused.gltf", text)).triangles.size(), 1u);
+  const std::string scenes = R"("scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}])";
+  text.replace(text.find(scenes), scenes.size(),
+               R"("scene": 1, "scenes": [{"nodes": [0]}, {"nodes": [1]}],
+                  "nodes": [{"mesh": 0}, {"mesh": 1, "children": [2]}, {"mesh": 2, "translation": [0, 0, 1]}])");
+  EXPECT_EQ(import_mesh(folder.write("scenes.gltf", text)).triangles.size(), 2u);
 }
 
 TEST(ImportTest, CutsPolygonsInPlaceAndSkipsLines) {
@@ -219,6 +257,17 @@ TEST(ImportTest, NumbersAreTheNearestOnesOfTheirFormat) {
     EXPECT_EQ(mesh.vertices[1].x(), static_cast<double>(0.1F));
     EXPECT_EQ(mesh.vertices[2].y(), static_cast<double>(9.87654321F));
   }
+}
+
+/// Just above the middle of two numbers: by way of double precision it would be the lower one.
+TEST(ImportTest, TextIsRoundedOnce) {
+  const ScratchDirectory folder;
+  const std::string obj =
+      "v 1.00000005960464477539062500001 -1.00000005960464477539062500001 1e-60\nv 9 0 0\nv 0 9 +7\nf 1 2 "
+      "3\n";
+  const TriangleMesh mesh = import_mesh(folder.write("a.obj", obj));
+  EXPECT_EQ(mesh.vertices[0], Vec3(1.0 + 0x1p-23, -1.0 - 0x1p-23, 0.0));
+  EXPECT_EQ(mesh.vertices[2].z(), 7.0);
 }
 
 std::string ply_of_a_tetrahedron(const std::string& before, const std::string& between,
@@ -299,6 +348,16 @@ TEST(ImportTest, StlTextEndsWithItsLastLine) {
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
   EXPECT_EQ(import_mesh(folder.write("a.stl", "solid a\n" + facet + "endsolid a\n")).triangles.size(), 1u);
   EXPECT_EQ(import_mesh(folder.write("b.stl", "solid\n" + facet + facet + "endsolid")).triangles.size(), 2u);
+  const std::string name(2000, 'x');
+  for (const std::string& one : {name, std::string("vertex_block"), std::string("facet normal")})
+    EXPECT_EQ(import_mesh(folder.write("n.stl", "solid " + one + "\n" + facet + "endsolid " + one))
+                  .triangles.size(),
+              1u)
+        << one;
+  EXPECT_EQ(import_mesh(
+                folder.write("t.stl", "solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n"))
+                .triangles.size(),
+            2u);
   // Its header may begin as text does.
   std::string binary = to_binary_stl(single_precision_blob());
   binary.replace(0, 5, "solid");
@@ -437,9 +496,65 @@ INSTANTIATE_TEST_SUITE_P(
                    R"({"asset": {"version": "2.0"}, "meshes": [{"weights": [0, 0.5]}]})",
                    "/meshes/0: has weights"},
         BrokenMesh{"gltf_sparse", "a.gltf",
-                   R"({"asset": {"version": "2.0"}, "accessors": [{"bufferView": 0, "sparse": {}}],
-                       "bufferViews": [{"byteStride": 24}]})",
+                   gltf_with(R"("sparse": {}, "type": "VEC3")", R"("byteStride": 12)"),
                    "/accessors/0: is sparse over interleaved"},
+        BrokenMesh{"gltf_sparse_beyond", "a.gltf",
+                   gltf_with(R"("type": "VEC3", "sparse": {"count": 4, )" + SPARSE + "}}"),
+                   "/accessors/0/sparse: has fewer numbers than it says"},
+        BrokenMesh{
+            "gltf_sparse_values_beyond", "a.gltf",
+            gltf_with(R"("type": "VEC3", "sparse": {"count": 3, )" + SPARSE + R"(, "byteOffset": 4}})"),
+            "/accessors/0/sparse: has fewer numbers than it says"},
+        BrokenMesh{"gltf_of_planes", "a.gltf", gltf_with(R"("type": "VEC2")"),
+                   "/accessors/0: is not of type VEC3 and component type 5126"},
+        BrokenMesh{"gltf_overlaps", "a.gltf", gltf_with(R"("type": "VEC3")", R"("byteStride": 4)"),
+                   "/accessors/0: has 12 bytes each, but one every 4"},
+        BrokenMesh{"gltf_offset_with_a_point", "a.gltf", gltf_with(R"("type": "VEC3", "byteOffset": 48.0)"),
+                   "/accessors/0/byteOffset: is not a whole number from 0 on"},
+        BrokenMesh{"gltf_offset_below", "a.gltf", gltf_with(R"("type": "VEC3")", R"("byteOffset": -4)"),
+                   "/bufferViews/0/byteOffset: is not a whole number"},
+        BrokenMesh{"gltf_matrix_of_15", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "nodes": [{"matrix": [1,0,0,0,0,1,0,0,0,0,1,0,0,0,1]}]})",
+                   "/nodes/0/matrix: is not a list of 16 numbers"},
+        BrokenMesh{"gltf_turn_of_3", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "nodes": [{}, {"rotation": [0, 0, 1]}]})",
+                   "/nodes/1/rotation: is not a list of 4 numbers"},
+        BrokenMesh{"gltf_child_with_a_point", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "nodes": [{"children": [1.0]}, {}]})",
+                   "/nodes/0/children: is not a list of whole numbers"},
+        BrokenMesh{"gltf_mode_with_a_point", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "meshes": [{"primitives": [{"mode": 5.0}]}]})",
+                   "/meshes/0/primitives/0/mode: is not a whole number from 0 to 6"},
+        BrokenMesh{"gltf_base64", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "data:a/b;base64,AAA!AA=="}]})",
+                   "/buffers/0/uri: has the byte 0x21"},
+        BrokenMesh{"obj_patch", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nbzp 1 2 3\nf 1 2 3\n",
+                   "line 4: 'bzp' is part of a free-form curve"},
+        BrokenMesh{"obj_control", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\ff 1 2 3\nf 1 3 2\n",
+                   "line 4: a keyword has a control character"},
+        BrokenMesh{"obj_infinite", "a.obj", "v 0 0 1.#INF\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                   "line 1: a coordinate '1.#INF'"},
+        BrokenMesh{"stl_second_solid_cut", "a.stl",
+                   stl_with("vertex 1 0 0") + "solid b\nfacet normal 0 0 1\n", "ends without 'endsolid'"},
+        BrokenMesh{"stl_facet_beside_a_name", "a.stl",
+                   "solid a facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                   "endloop\nendfacet\nendsolid\n",
+                   "line 1: a facet stands on the line of a solid's name"},
+        BrokenMesh{"stl_behind_its_end", "a.stl",
+                   stl_with("vertex 1 0 0") + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
+                   "a vertex behind 'endsolid'"},
+        BrokenMesh{
+            "ply_two_x", "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float x\nproperty float "
+            "y\nproperty float z\nend_header\n",
+            "has no property x that is one number"},
+        BrokenMesh{"ply_two_formats", "a.ply", "ply\nformat ascii 1.0\nformat binary_little_endian 1.0\n",
+                   "line 3: a second format"},
+        BrokenMesh{"ply_version_2", "a.ply", "ply\nformat ascii 2.0\n", "line 2: the format is not of"},
+        BrokenMesh{"ply_x_is_a_list", "a.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty list uchar float x\nproperty float "
+                   "y\nproperty float z\nend_header\n",
+                   "has no property x that is one number"},
         BrokenMesh{"obj_curve", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 0 1 1 2\nf 1 2 3\n",
                    "line 4: 'curv' is part of a free-form curve"},
         BrokenMesh{"obj_goes_on", "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\", "line 4: the file ends"},

@@ -7,12 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lmdbench {
@@ -142,6 +146,72 @@ TEST(Polygon, ASmallNotchStaysOpen) {
     const Triangle c = mesh.triangle(t);
     EXPECT_GE((c[1] - c[0]).cross(c[2] - c[0]).z(), 0.0) << t;
   }
+}
+
+/// The faces of a box with corners along its edges, each begun anywhere, make a closed surface: an
+/// edge of two triangles that turn one way, and none without area.
+TEST(Polygon, CornersAlongSidesAreNoTrianglesOfTheirOwn) {
+  constexpr std::array<std::array<std::int32_t, 4>, 6> FACES{
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  std::mt19937_64 random(20261130);
+  std::uniform_real_distribution<double> along(0.1, 0.9);
+  for (int box = 0; box < 200; ++box) {
+    const Eigen::Quaterniond turn = box % 2 == 0 ? Eigen::Quaterniond::Identity()
+                                                 : Eigen::Quaterniond(Eigen::Vector4d::Random().normalized());
+    TriangleMesh mesh;
+    for (int i = 0; i < 8; ++i) mesh.vertices.emplace_back(2.0 * (i & 1), (i >> 1) & 1, (i >> 2) & 1);
+    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> between;
+    std::vector<std::vector<std::int32_t>> polygons;
+    for (const auto& face : FACES) {
+      std::vector<std::int32_t>& polygon = polygons.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::int32_t a = face[k], b = face[(k + 1) % 4];
+        auto [edge, is_new] = between.try_emplace(std::minmax(a, b));
+        for (std::uint64_t n = is_new ? random() % 3 : 0; n > 0; --n) {
+          const Vec3 from = edge->second.empty() ? mesh.vertices[static_cast<std::size_t>(std::min(a, b))]
+                                                 : mesh.vertices.back();
+          const Vec3 to = mesh.vertices[static_cast<std::size_t>(std::max(a, b))];
+          edge->second.push_back(static_cast<std::int32_t>(mesh.vertices.size()));
+          mesh.vertices.push_back(from + along(random) * (to - from));
+        }
+        polygon.push_back(a);
+        if (a < b) polygon.insert(polygon.end(), edge->second.begin(), edge->second.end());
+        if (a > b) polygon.insert(polygon.end(), edge->second.rbegin(), edge->second.rend());
+      }
+      std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()),
+                  polygon.end());
+    }
+    for (Vec3& vertex : mesh.vertices) vertex = (turn * vertex).cast<float>().cast<double>();
+    for (const auto& polygon : polygons) ASSERT_FALSE(add_polygon(polygon, mesh)) << box;
+    std::set<std::pair<std::int32_t, std::int32_t>> sides;
+    for (const auto& [a, b, c] : mesh.triangles)
+      for (const auto& side : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        ASSERT_TRUE(sides.insert(side).second) << box;
+    for (const auto& [a, b] : sides) ASSERT_TRUE(sides.contains({b, a})) << box;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle c = mesh.triangle(static_cast<std::int32_t>(t));
+      ASSERT_GT((c[1] - c[0]).cross(c[2] - c[0]).norm(), 1e-4) << box;
+    }
+  }
+}
+
+TEST(Polygon, ACornerAtThePlaceOfTheOneBeforeIsLeftOut) {
+  TriangleMesh mesh;
+  mesh.vertices = {{6, 0, 0}, {6, -5, 0}, {11, 3, 0}, {9, 1, 0}, {6, 1, 0}, {4, 3, 0}, {6, 0, 0}};
+  const std::vector<std::int32_t> polygon{0, 1, 1, 2, 3, 4, 5, 5, 6};
+  ASSERT_FALSE(add_polygon(polygon, mesh));
+  ASSERT_EQ(mesh.triangles.size(), 4u);
+  double area = 0.0;
+  for (std::int32_t t = 0; t < 4; ++t) {
+    const Triangle c = mesh.triangle(t);
+    const double twice = (c[1] - c[0]).cross(c[2] - c[0]).z();
+    EXPECT_GT(twice, 0.0) << t;
+    area += twice;
+  }
+  EXPECT_EQ(area, 26.0);
+  const std::vector<std::int32_t> line{0, 5, 5, 0};
+  ASSERT_FALSE(add_polygon(line, mesh));
+  EXPECT_EQ(mesh.triangles.size(), 4u);
 }
 
 TEST(Polygon, ABowTieIsAFault) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <string>
@@ -23,7 +24,8 @@ inline constexpr const char* CUT_SHORT =
 /// The remedy for one that is longer.
 inline constexpr const char* TOO_LONG = "correct the counts in its header, or get the file again";
 
-/// Lines of a mesh in text, without comments (# to the end) and blank lines, and their numbers.
+/// Lines of a mesh in text, without comments (# to the end, but not that of "1.#INF") and blank
+/// lines, and their numbers.
 class LineReader {
  public:
   /// @param lines_before lines of the file before the text
@@ -37,7 +39,7 @@ class LineReader {
       line_ = rest_.substr(0, end);
       rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
       ++line_number_;
-      line_ = line_.substr(0, line_.find('#'));
+      line_ = line_.substr(0, comment_of(line_));
       skip_blanks();
       if (!line_.empty()) return true;
     }
@@ -57,8 +59,15 @@ class LineReader {
     return number<Number>(what, word());
   }
 
-  /// The nearest number of single precision. Through double, as what is below its least one is 0.
-  double single(const char* what) { return static_cast<double>(static_cast<float>(number<double>(what))); }
+  /// The nearest number of single precision; 0 below its least one.
+  double single(const char* what) {
+    const std::string_view text = word();
+    const auto value = static_cast<float>(number<double>(what, text));
+    const bool has_sign = text.starts_with('+');
+    float nearest = value;  // which rounding twice may miss
+    std::from_chars(text.data() + (has_sign ? 1 : 0), text.data() + text.size(), nearest);
+    return static_cast<double>(nearest);
+  }
 
   /// @param what the number is, for messages
   /// @throws InputError naming the line, unless the text is a number and nothing else
@@ -87,6 +96,18 @@ class LineReader {
 
  private:
   static constexpr std::string_view BLANKS = " \t\r";
+  static constexpr std::array<std::string_view, 8> NO_NUMBERS{"INF", "IND", "QNAN", "SNAN",
+                                                              "inf", "ind", "qnan", "snan"};
+
+  static std::size_t comment_of(std::string_view line) {
+    std::size_t at = line.find('#');
+    const auto is_no_number = [&] {  // of old compilers
+      return at >= 2 && line.substr(at - 2, 2) == "1." &&
+             std::ranges::any_of(NO_NUMBERS, [&](auto end) { return line.substr(at + 1).starts_with(end); });
+    };
+    while (at != std::string_view::npos && is_no_number()) at = line.find('#', at + 1);
+    return at;
+  }
 
   void skip_blanks() { line_.remove_prefix(std::min(line_.size(), line_.find_first_not_of(BLANKS))); }
 

@@ -17,9 +17,9 @@ namespace lmdbench {
 namespace {
 
 /// Keywords of curves and surfaces that are no polygons.
-constexpr std::array<std::string_view, 14> FREE_FORM{"cstype", "deg",  "bmat", "step", "curv",
-                                                     "curv2",  "surf", "parm", "trim", "hole",
-                                                     "scrv",   "sp",   "con",  "call"};
+constexpr std::array<std::string_view, 18> FREE_FORM{"cstype", "deg",  "bmat", "step", "curv", "curv2",
+                                                     "surf",   "parm", "trim", "hole", "scrv", "sp",
+                                                     "con",    "call", "bzp",  "bsp",  "cdc",  "cdp"};
 
 /// Calls back for each vertex ("v") or face ("f"), with a reader behind the keyword. Lines that a
 /// backslash continues are joined.
@@ -33,6 +33,8 @@ void for_each_line(std::string_view text, const std::string& file, const auto& t
     if (word.ends_with('\\')) word.remove_suffix(1);
     if (word == "fo" || word == "F") word = "f";  // of old and of careless writers
     if (word == "V") word = "v";
+    if (std::ranges::any_of(word, [](unsigned char c) { return c < ' '; }))
+      lines.fail("a keyword has a control character", "remove it, or get the file again");
     if (std::ranges::find(FREE_FORM, word) != FREE_FORM.end())
       lines.fail(fmt::format("'{}' is part of a free-form curve or surface", word),
                  "export the mesh as polygons");

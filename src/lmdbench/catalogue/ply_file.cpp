@@ -89,7 +89,9 @@ class HeaderReader {
       const std::string_view keyword = next_word(line);
       if (keyword == "end_header") break;
       if (keyword == "format") {
+        if (form_) fail("a second format", "keep one of them");
         form_ = form_of(next_word(line));
+        if (next_word(line) != "1.0") fail("the format is not of version 1.0", "export it as such");
       } else if (keyword == "element") {
         add_element(line);
       } else if (keyword == "property") {
@@ -113,10 +115,13 @@ class HeaderReader {
 
   void refuse_flat_vertices() const {
     for (const Element& element : elements_)
-      for (const char* name : {"x", "y", "z"})
-        if (element.name == "vertex" &&
-            std::ranges::find(element.properties, name, &Property::name) == element.properties.end())
-          fail(fmt::format("element 'vertex' has no property {}", name), "export the mesh with x, y and z");
+      for (const char* name : {"x", "y", "z"}) {
+        const auto found = std::ranges::find(element.properties, name, &Property::name);
+        if (element.name == "vertex" && (found == element.properties.end() || found->count ||
+                                         std::ranges::count(element.properties, name, &Property::name) > 1))
+          fail(fmt::format("element 'vertex' has no property {} that is one number", name),
+               "export the mesh with x, y and z");
+      }
   }
 
   std::string_view next_line() {

@@ -18,6 +18,7 @@
 namespace lmdbench {
 namespace {
 
+constexpr std::string_view FACET = "facet normal ", DIGITS = "-+.0123456789";
 constexpr std::size_t HEADER_BYTES = 84, TRIANGLE_BYTES = 50;
 
 std::string lower(std::string_view text) {
@@ -35,11 +36,20 @@ TriangleMesh parse_text(std::string_view text, const std::string& file) {
   TriangleMesh mesh;
   std::array<Vec3, 3> corners;
   std::size_t count = 0;
+  bool is_open = true;
   while (lines.next_line()) {
     std::string_view word = lines.word();
-    if (word == "solid" || word == "endsolid") continue;  // a name follows
+    if (word == "solid" || word == "endsolid") {  // a name follows
+      is_open = word == "solid";
+      const std::size_t facet = lines.rest().find(FACET);
+      if (facet != std::string_view::npos &&
+          lines.rest().find_first_of(DIGITS, facet) == facet + FACET.size())
+        lines.fail("a facet stands on the line of a solid's name", "begin it on a line of its own");
+      continue;
+    }
     while (!word.empty()) {
       const bool is_vertex = word == "vertex";
+      if (is_vertex && !is_open) lines.fail("a vertex behind 'endsolid'", "begin another solid before it");
       if (is_vertex && count == 3) lines.fail("a facet of more than three vertices");
       for (int axis = 0; is_vertex && axis < 3; ++axis) corners[count][axis] = lines.single("a coordinate");
       if (is_vertex && !corners[count].allFinite())
@@ -55,6 +65,9 @@ TriangleMesh parse_text(std::string_view text, const std::string& file) {
         lines.fail(fmt::format("a vertex goes on with '{}' behind its three coordinates", word));
     }
   }
+  if (is_open)
+    throw InputError(file, "", "ends without 'endsolid'",
+                     "the file may be cut short: get it again, or add the line");
   if (count != 0) lines.fail("the last facet has no 'endfacet'", CUT_SHORT);
   return mesh;
 }
@@ -91,17 +104,11 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& file) {
   const std::string_view unmarked = without_byte_order_mark(bytes);
   const std::string start = lower(unmarked.substr(0, 1024));
   const std::size_t first = start.find_first_not_of(" \t\r\n");
-  const bool is_text = first != std::string::npos && start.compare(first, 5, "solid") == 0 &&
-                       (start.find("facet") != std::string::npos ||
-                        start.find("endsolid") != std::string::npos || bytes.size() < HEADER_BYTES);
-  if (is_text) {
-    std::string text = lower(unmarked);
-    const std::size_t end = text.rfind("endsolid"), corner = text.rfind("vertex");
-    if (end == std::string::npos || (corner != std::string::npos && corner > end))
-      throw InputError(file, "", "ends without 'endsolid'",
-                       "the file may be cut short: get it again, or add the line");
-    return parse_text(text, file);
-  }
+  const bool is_text =
+      first != std::string::npos && start.compare(first, 5, "solid") == 0 &&
+      (start.find("facet") != std::string::npos || start.find("endsolid") != std::string::npos ||
+       bytes.size() < HEADER_BYTES || unmarked.find('\0') == std::string_view::npos);
+  if (is_text) return parse_text(lower(unmarked), file);
   if (whole == 0)
     throw InputError(file, "", "is neither text that begins with 'solid' nor as long as binary STL",
                      "get it again, or export it as binary STL");
