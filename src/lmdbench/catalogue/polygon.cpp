@@ -88,10 +88,7 @@ std::vector<Corners> ears(const std::vector<Point>& at, double on_side) {
   const auto near = [&](const Point& a, const Point& b, const Point& p) {
     return area_of(a, b, p) >= -on_side * (b - a).norm();
   };
-  const auto inside_or_on = [](const Point& a, const Point& b, const Point& p) {
-    return area_of(a, b, p) >= 0.0;
-  };
-  const auto inside = [](const Point& a, const Point& b, const Point& p) { return area_of(a, b, p) > 0.0; };
+  const auto inside = [](const Point& a, const Point& b, const Point& p) { return area_of(a, b, p) >= 0.0; };
   const auto full = [&](const Corners& ear) { return is_full(at[ear[0]], at[ear[1]], at[ear[2]], on_side); };
   const auto above = [&](double least) {
     return [&, least](const Corners& ear) { return area_of(at[ear[0]], at[ear[1]], at[ear[2]]) > least; };
@@ -111,9 +108,7 @@ std::vector<Corners> ears(const std::vector<Point>& at, double on_side) {
     return false;
   };
   while (left.size() > 3)
-    if (!cut(full, near) && !cut(above(0.0), inside_or_on) && !cut(above(0.0), inside) &&
-        !cut(above(ROUNDING * whole), inside))
-      return {};
+    if (!cut(full, near) && !cut(above(0.0), inside) && !cut(above(ROUNDING * whole), inside)) return {};
   const Corners last = corners_at(1);
   if (area_of(at[last[0]], at[last[1]], at[last[2]]) < ROUNDING * whole) return {};
   triangles.push_back(last);
