@@ -66,9 +66,10 @@ def projected(block, columns):
 
 
 def with_tables_of(page, output):
-    """The page with the tables of an output, how many of its own were not renewed, and the whole of those of which it shows a part,
-    [(heading, block)]. A table under the same heading comes first, of several the first; none that is under the heading of another one of the page."""
-    fresh, whole, kept, heading = tables_of(output), [], 0, ""
+    """The page with the tables of an output, how many of its own were not renewed, the whole of those of which it shows a part, [(heading, block)], and
+    the headings under which all are new. A table under the same heading comes first, of several the first; none that is under the heading of another one of the page."""
+    fresh, whole, kept, heading = tables_of(output), [], [], ""
+    renewed = []
     written, headings = blocks(page), {under for under, _ in tables_of(page)}
     for i, block in enumerate(written):
         if not is_table(block):
@@ -78,20 +79,21 @@ def with_tables_of(page, output):
         able = [(under != heading, len(rows_of(other)[0]), k) for k, (under, other) in enumerate(fresh)
                 if (under == heading or under not in headings) and places(names, rows_of(other)[0])]
         if not able:
-            kept += 1
+            kept.append(heading)
             continue
+        renewed.append(heading)
         _, width, k = min(able)
         _, other = fresh.pop(k)
         if width > len(names):
             whole.append((heading, other))
             other = projected(other, places(names, rows_of(other)[0]))
         written[i] = other
-    return "".join(written), kept, whole
+    return "".join(written), len(kept), whole, set(renewed).difference(kept)
 
 
-def write_whole(page, whole, kept):
+def write_whole(page, whole, kept, renewed):
     """tables/PAGE.csv, or PAGE-2.csv, ... where tables have other columns: all of them, beside the headings that they stand under. Where tables of the
-    page were kept, so are the rows of headings that are not among these."""
+    page were kept, so are the rows of headings that are not all new."""
     folder = Path(page).parent / "tables"
     folder.mkdir(exist_ok=True)
     written = {}
@@ -103,7 +105,7 @@ def write_whole(page, whole, kept):
                 written[tuple(names[1:])] = (file, rows)
             else:
                 file.unlink()
-    groups = {}
+    groups = {names: {} for names in written}
     for heading, block in whole:
         names, *rows = rows_of(block)
         groups.setdefault(tuple(names), {}).setdefault(heading, []).extend([heading, *(cell.replace("**", "").strip("*") for cell in row)] for row in rows)
@@ -113,7 +115,10 @@ def write_whole(page, whole, kept):
             written[names] = (next(file for file in numbered if not file.exists()), [])
         file, before = written[names]
         headings = dict.fromkeys([*(row[0] for row in before), *fresh])
-        rows = [row for heading in headings for row in fresh.get(heading) or (row for row in before if row[0] == heading)]
+        rows = [row for heading in headings for row in fresh.get(heading) or (row for row in before if row[0] == heading and heading not in renewed)]
+        if not rows:
+            file.unlink()
+            continue
         with file.open("w", encoding="utf-8", newline="") as stream:
             csv.writer(stream, lineterminator="\n").writerows([["table", *names], *rows])
 
@@ -162,12 +167,12 @@ def renew(path, run):
     output, page = (Path(file).read_text(encoding="utf-8") for file in (source, path))
     body = head_and_body(output)[1] if source == same else ""
     page_then = head_and_body(page)[0] + shown_as(body, page) if body else page
-    text, kept, whole = with_tables_of(page_then, output)
+    text, kept, whole, renewed = with_tables_of(page_then, output)
     if text == page and kept == len(tables_of(page)) > 0:
         return None
     Path(path).write_text(text, encoding="utf-8")
-    if whole:
-        write_whole(path, whole, kept)
+    if whole or renewed:
+        write_whole(path, whole, kept, renewed)
     return kept
 
 

@@ -33,6 +33,8 @@ TEST(ProgressLine, KeepsItsLength) {
   EXPECT_EQ(bar(3), bar(10));
   EXPECT_EQ(bar(11), bar(10)) << "more than announced";
   EXPECT_THAT(progress_line("truth", 0, 0, 1.0), HasSubstr("100 %")) << "nothing to do is done";
+  EXPECT_THAT(progress_line("run", 20, 10, 10.0), HasSubstr("ETA 0:00"));
+  EXPECT_EQ(progress_note("run", 20, 10, 10.0), "run: 100 %, 0 s left");
 }
 
 /// The output of two updates to standard error, which is no terminal here.

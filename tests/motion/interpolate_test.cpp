@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <lmdbench/base/error.h>
+#include <lmdbench/base/limits.h>
 #include <lmdbench/motion/interpolate.h>
 #include <lmdbench/motion/rotation_vector.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/message_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +43,18 @@ Vec3 velocity(const PathInterpolator& interpolator, double time, double h) {
 Vec3 angular_velocity(const PathInterpolator& interpolator, double time, double h) {
   return rotation_vector_of(interpolator.at(time).rotation.conjugate() * interpolator.at(time + h).rotation) /
          h;
+}
+
+/// Frames of a second at 100 Hz: 101.
+TEST(Interpolate, ALimitIsOfTheFramesThatARunHas) {
+  const PathInterpolator second({at_position(0.0, Vec3::Zero()), at_position(1.0, Vec3::UnitX())},
+                                Interpolation::LINEAR);
+  set_limit("frames=100");
+  EXPECT_NO_THROW(refuse_too_many_frames(second, 100.0, 100, "a.tum"));
+  EXPECT_NO_THROW(refuse_too_many_frames(second, 99.0, {}, "a.tum"));
+  EXPECT_THAT(testing::message_of<InputError>([&] { refuse_too_many_frames(second, 100.0, {}, "a.tum"); }),
+              ::testing::HasSubstr("101 frames at 100 Hz, above the limit of 100"));
+  set_limit("frames=10000000");
 }
 
 TEST(Interpolate, GoesThroughEveryPoseBitForBit) {

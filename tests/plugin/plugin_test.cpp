@@ -205,6 +205,19 @@ TEST(Plugin, TimesOfTheWayAreNotTheMethods) {
   EXPECT_LT(seconds_of_others(), all);
 }
 
+/// Where meshes deform it is made anew in every frame, which is its work.
+TEST(Plugin, MakingItIsTheMethodsTime) {
+  for (const PluginTrust trust : {PluginTrust::NONE, PluginTrust::TRUSTED}) {
+    const MethodDescription slow = only_method("slow", trust);
+    seconds_of_others() = 0.0;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto method = slow.make(two_spheres(), nlohmann::json::object());
+    const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_GT(seconds_of_others(), 0.0);
+    EXPECT_GE(all - seconds_of_others(), 0.1);
+  }
+}
+
 /// With room for more contacts it is asked again: once all is well, once it fails.
 TEST(Plugin, IsGivenMoreRoomOnce) {
   for (const PluginTrust trust : {PluginTrust::NONE, PluginTrust::TRUSTED}) {

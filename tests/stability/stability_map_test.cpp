@@ -75,10 +75,21 @@ TEST(StabilityMap, OnlyMethodsThatTrackHaveAges) {
 }
 
 /// At 50 Hz there is nothing above 30 Hz that could be told.
-TEST(StabilityMap, ASlowRateHasNoForceAbove30Hz) {
-  const auto found = runs({{50.0}, {0}, 1, 50}, {CERTIFIED, "/frame_rate_hz=50"});
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(std::isnan(found[0].force_above_30_hz_n));
+TEST(StabilityMap, ASlowRateIsRefused) {
+  EXPECT_THROW(runs({{50.0}, {0}, 1, 50}, {CERTIFIED, "/frame_rate_hz=50"}), UsageError);
+}
+
+/// What stands and what rests as a mover are the same to the held mesh.
+TEST(StabilityMap, RestingMoversAreTouched) {
+  const StabilityMapGrid grid{{50.0}, {0}, 1, 800};
+  const auto standing = runs(grid, {CERTIFIED});
+  const auto resting = runs(
+      grid, {CERTIFIED, R"(/fixed=[{"mesh": "slab", "pose": {"translation_m": [50, 0, 0]}}])",
+             R"(/movers=[{"mesh": "slab", "path": {"way_diagonals": 0, "turn_rad": 0, "period_s": 1}}])"});
+  ASSERT_EQ(resting.size(), 1u);
+  EXPECT_TRUE(resting[0].through());
+  EXPECT_EQ(resting[0].clearance_m, 0.0);
+  EXPECT_EQ(resting[0].penetration_share, standing[0].penetration_share);
 }
 
 TEST(StabilityMap, StopsWhenAskedAndRefusesWhatCannotShake) {

@@ -241,6 +241,16 @@ TEST(StabilitySearch, ClipAtTheProfilesMaximumIsScaledWithIt) {
   EXPECT_NEAR(row.critical_stiffness_n_per_m, 1605.3511, 1.6);
 }
 
+/// Two contacts at 0.8 F_max each: their sum is constant, but they do not turn away.
+TEST(StabilitySearch, ASumThatTheProfileClipsHasNoCleanStiffness) {
+  const std::vector<Override> two{R"(/fixed=[{"mesh": "slab"}, {"mesh": "slab"}])", "/force/cutoff_m=0.1",
+                                  "/loop/push_n=[0, 0, 0]"};
+  std::vector<Override> clipped = two;
+  clipped.emplace_back("/force/clip=maximum");
+  EXPECT_TRUE(search(two).has_answer());
+  EXPECT_EQ(search(clipped).clean_until, "never");
+}
+
 TEST(StabilitySearch, DeviceRestsWhereTheContactCarriesThePush) {
   for (const char* const law : {"linear", "exponential"}) {
     for (const double push : {0.5, 3.0, 9.0}) {
@@ -452,6 +462,28 @@ TEST(StabilitySearch, OtherPairsDoNotChangeTheTap) {
               1e-6 * alone.exact_n_per_m);
 }
 
+/// F_max is varied, so that of the file is only where the search begins.
+TEST(StabilitySearch, AFileWhoseTapEncodersDoNotSeeIsSearchedDownwards) {
+  const std::vector<Override> common{"/loop/resolution_m=1e-4", "/loop/push_n=[0, 0, -1]"};
+  const auto with = [&](const char* maximum) {
+    std::vector<Override> overrides = common;
+    overrides.emplace_back(maximum);
+    return search(overrides);
+  };
+  const StabilityRow seen = with("/force/maximum_force_n=10"), unseen = with("/force/maximum_force_n=30");
+  ASSERT_TRUE(seen.has_answer());
+  EXPECT_NEAR(unseen.critical_stiffness_n_per_m, seen.critical_stiffness_n_per_m,
+              0.01 * seen.critical_stiffness_n_per_m)
+      << unseen.clean_until;
+}
+
+/// A trial that is clean below where friction holds every tap does not make it "never".
+TEST(StabilitySearch, FrictionThatHoldsAboveWhatIsCleanIsTold) {
+  const StabilityRow row = search({"/device=ideal", "/loop/hand=postural-arm", "/loop/friction_n=0.2",
+                                   "/loop/push_n=[0, 0, -1]", "/force/maximum_force_n=3"});
+  EXPECT_EQ(row.clean_until, "stuck");
+}
+
 /// Above what the encoders see nothing is shown, but what was clean below stays so.
 TEST(StabilitySearch, WhereEncodersSeeNothingTheCleanRangeEnds) {
   const StabilityRow row = search({"/device=ideal", "/loop/hand=postural-arm", "/loop/resolution_m=2.3e-5",
@@ -470,7 +502,7 @@ TEST(StabilitySearch, TapsAreSeenByTheEncoders) {
   const double coarser = search(pressed({"/loop/resolution_m=2e-4"})).tap_m;
   EXPECT_NEAR(coarser, 25.0 * exact, 0.01 * coarser) << "a quarter of the way at most";
 
-  const StabilityRow row = search({"/loop/resolution_m=3e-5"});  // 1 um within the cutoff
+  const StabilityRow row = search(pressed({"/loop/resolution_m=3e-3"}));
   EXPECT_EQ(row.clean_until, "within_counts");
   EXPECT_FALSE(row.has_answer());
   EXPECT_NE(advice(row).find("encoders"), std::string::npos) << advice(row);

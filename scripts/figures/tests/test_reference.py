@@ -128,22 +128,22 @@ class Pages(unittest.TestCase):
 
 class Writing(unittest.TestCase):
     def test_a_table_takes_the_place_of_the_one_with_its_header(self):
-        text, kept, whole = with_tables_of(PAGE, "| mesh  | us |\n|---|---|\n| bunny | 5 |\n| torus | 9 |\nof other things\n")
+        text, kept, whole, _ = with_tables_of(PAGE, "| mesh  | us |\n|---|---|\n| bunny | 5 |\n| torus | 9 |\nof other things\n")
         self.assertEqual(text, PAGE.replace("| bunny | 7 |", "| bunny | 5 |\n| torus | 9 |").replace("| mesh | us |", "| mesh  | us |"))
         self.assertEqual((kept, whole), (1, []))
 
     def test_tables_of_one_header_are_taken_in_their_order(self):
         page = "| a |\n|---|\n| 1 |\nthen\n| a |\n|---|\n| 2 |\n"
-        self.assertEqual(with_tables_of(page, page.replace("1", "5").replace("2", "6")), (page.replace("1", "5").replace("2", "6"), 0, []))
-        self.assertEqual(with_tables_of(page, "| a |\n|---|\n| 5 |\n"), (page.replace("1", "5"), 1, []))
+        self.assertEqual(with_tables_of(page, page.replace("1", "5").replace("2", "6")), (page.replace("1", "5").replace("2", "6"), 0, [], {""}))
+        self.assertEqual(with_tables_of(page, "| a |\n|---|\n| 5 |\n"), (page.replace("1", "5"), 1, [], set()))
 
     def test_the_table_under_the_same_heading_is_taken(self):
         page = "## torus\n| a |\n|---|\n| 1 |\n"
-        self.assertEqual(with_tables_of(page, "## bunny\n| a |\n|---|\n| 5 |\n## torus\n| a |\n|---|\n| 6 |\n"), (page.replace("1", "6"), 0, []))
+        self.assertEqual(with_tables_of(page, "## bunny\n| a |\n|---|\n| 5 |\n## torus\n| a |\n|---|\n| 6 |\n"), (page.replace("1", "6"), 0, [], {"torus"}))
 
     def test_a_page_shows_the_columns_that_it_has(self):
         page, whole = "## cost\n| mesh | p99 |\n|---|---|\n| old | 1 |\n", "| mesh | us | p99 | p99 |\n|---|---|---|---|\n| bunny | 5 | 6 | 7 |\n"
-        self.assertEqual(with_tables_of(page, whole), ("## cost\n| mesh | p99 |\n|---|---|\n| bunny | 6 |\n", 0, [("cost", whole)]))
+        self.assertEqual(with_tables_of(page, whole), ("## cost\n| mesh | p99 |\n|---|---|\n| bunny | 6 |\n", 0, [("cost", whole)], {"cost"}))
 
     def test_a_page_is_of_the_longest_part_that_it_is_called_after(self):
         self.assertEqual([part_of(name) for name in ("stability-map.md", "stability.md", "recall-bunny-bunny.md", "README.md")],
@@ -174,6 +174,14 @@ class WrittenFiles(Scratch):
         self.assertEqual(renew(page, self.path("run")), 2)
         self.assertEqual(self.read("worlds.md"), before)
         self.assertEqual(self.read("tables", "worlds-2.csv"), "table,us,p99\na,5,1\nb,7,2\n")
+
+    def test_rows_of_a_table_that_was_renewed_with_other_columns_go(self):
+        page = self.write("worlds.md", "## a\n| p99 |\n|---|\n| 1 |\n## b\n| p99 |\n|---|\n| 2 |\n## c\n| p99 |\n|---|\n| 4 |\n")
+        self.write("tables/worlds.csv", "table,us,p99\na,5,1\nb,6,2\nc,8,4\n")
+        self.write("run/worlds.txt", "## b\n| us | p99 | most |\n|---|---|---|\n| 7 | 3 | 9 |\n## c\n| p99 |\n|---|\n| 5 |\n")
+        self.assertEqual(renew(page, self.path("run")), 1)
+        self.assertEqual(self.read("tables", "worlds.csv"), "table,us,p99\na,5,1\n")
+        self.assertEqual(self.read("tables", "worlds-2.csv"), "table,us,p99,most\nb,7,3,9\n")
 
     def test_a_row_names_the_commit_of_what_was_renewed_and_keeps_that_of_what_was_not(self):
         register = self.write("README.md", "| `a.md`, `a.png` | c | 1111111 | lmd | older |\n| `b.md` | c | 2222222 | lmd | |\n")

@@ -15,8 +15,8 @@ namespace lmdbench {
 std::string progress_line(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed) {
   constexpr int WIDTH = 30;
   if (total < 0) return phase;
-  const double share =
-      total > 0 ? std::clamp(static_cast<double>(done) / static_cast<double>(total), 0.0, 1.0) : 1.0;
+  done = std::clamp(done, std::int64_t{0}, total);
+  const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
   const int filled = static_cast<int>(share * WIDTH);
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(WIDTH - filled), '-');
@@ -29,6 +29,7 @@ std::string progress_line(const std::string& phase, std::int64_t done, std::int6
 
 std::string progress_note(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed) {
   if (total <= 0) return phase;
+  done = std::clamp(done, std::int64_t{0}, total);
   std::string text =
       fmt::format("{}: {:.0f} %", phase, 100.0 * static_cast<double>(done) / static_cast<double>(total));
   if (elapsed > 0.0 && done > 0)

@@ -140,13 +140,13 @@ std::size_t frame_count(const PathInterpolator& interpolator, double rate) {
 void refuse_too_many_frames(const PathInterpolator& interpolator, double rate,
                             std::optional<std::size_t> most, const std::string& file) {
   const double duration = interpolator.end_time() - interpolator.start_time();
-  const double frames = most ? std::min(duration * rate, static_cast<double>(*most)) : duration * rate;
-  const auto limit = static_cast<double>(limit_of(Limit::FRAMES));
-  if (frames < limit) return;  // false for NaN, too
+  const double whole = std::floor(duration * rate) + 1.0;
+  const double frames = most ? std::min(whole, static_cast<double>(*most)) : whole;
+  if (frames <= static_cast<double>(limit_of(Limit::FRAMES))) return;  // false for NaN, too
   throw InputError(
       file, "",
-      fmt::format("lasts {:g} s: {:.15g} frames at {:g} Hz, above the limit of {}", duration,
-                  std::floor(frames) + 1.0, rate, limit_of(Limit::FRAMES)),
+      fmt::format("lasts {:g} s: {:.15g} frames at {:g} Hz, above the limit of {}", duration, frames, rate,
+                  limit_of(Limit::FRAMES)),
       "give times in seconds, a lower frame rate or fewer frames, or " + raise_remedy(Limit::FRAMES));
 }
 

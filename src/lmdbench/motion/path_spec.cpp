@@ -92,7 +92,8 @@ PathSpec parse_path_spec(const std::string& text, const std::string& name) {
   if (!(spec.duration() * spec.frame_rate < static_cast<double>(limit_of(Limit::FRAMES))))
     document.fail("/frame_rate_hz",
                   fmt::format("{:g} s at {:g} Hz are {:g} frames, above the limit of {}", spec.duration(),
-                              spec.frame_rate, spec.duration() * spec.frame_rate, limit_of(Limit::FRAMES)),
+                              spec.frame_rate, std::floor(spec.duration() * spec.frame_rate) + 1.0,
+                              limit_of(Limit::FRAMES)),
                   "shorten the gaps' times, lower the rate, or " + raise_remedy(Limit::FRAMES));
   return spec;
 }

@@ -184,6 +184,8 @@ class ChildCaller : public PluginCaller {
   }
   ~ChildCaller() override { ::munmap(const_cast<lmdbench_contact*>(shared_), wire::CONTACT_BYTES); }
 
+  double seconds_to_make() const override { return seconds_to_make_; }
+
   PluginAnswer search(const double* X_BA) override {
     PluginAnswer answer;
     if (!child_ && !start()) {
@@ -216,6 +218,7 @@ class ChildCaller : public PluginCaller {
         child_->receive(answer, PREPARING_FACTOR * static_cast<double>(limit_of(Limit::PLUGIN_SECONDS)));
     if (lost.empty() && answer.reply.status == 0) {
       changed_float_mode_ = answer.reply.changed_float_mode;
+      seconds_to_make_ = answer.reply.seconds;
       return true;
     }
     answer.message.back() = '\0';
@@ -248,6 +251,7 @@ class ChildCaller : public PluginCaller {
   int starts_ = 0;
   std::uint64_t number_ = 0;
   std::uint32_t changed_float_mode_ = 0;
+  double seconds_to_make_ = 0.0;
   std::string why_not_;
 };
 

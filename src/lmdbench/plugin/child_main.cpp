@@ -131,6 +131,7 @@ void serve(const std::string& file) {
     const lmdbench_method* method = plugin.method(task.method);
     if (method == nullptr) throw std::runtime_error("has no such method any more");
     LoadedMethod made(*method, a, b, task.cutoff, memory + task.options_begin());
+    answer.reply.seconds = made.seconds_to_make();
     answer.reply.changed_float_mode = plugin.changed_float_mode() || made.changed_float_mode() ? 1 : 0;
     send(answer);
     auto contacts = std::make_unique<GuardedContacts>(256);

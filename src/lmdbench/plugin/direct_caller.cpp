@@ -43,6 +43,8 @@ class DirectCaller : public PluginCaller {
     make_room(256);
   }
 
+  double seconds_to_make() const override { return method_ == nullptr ? 0.0 : method_->seconds_to_make(); }
+
   PluginAnswer search(const double* X_BA) override {
     PluginAnswer answer;
     if (method_ == nullptr) {

@@ -73,9 +73,9 @@ LoadedPlugin::LoadedPlugin(const std::string& file) {
          std::to_string(entry_->abi_minor) + " of lmdbench_method.h, and this program takes " +
          std::to_string(LMDBENCH_METHOD_ABI_MAJOR) + ".x: build it with this program's header");
   if (entry_->get == nullptr || entry_->get(0) == nullptr) fail("has no method");
-  if (entry_->get(MOST_METHODS) != nullptr)
-    fail("has more than " + std::to_string(MOST_METHODS) + " methods");
-  for (std::uint32_t i = 0; const lmdbench_method* described = method(i); ++i) {
+  // A table that ends in NULL is asked no further.
+  for (std::uint32_t i = 0; const lmdbench_method* described = entry_->get(i); ++i) {
+    if (i == MOST_METHODS) fail("has more than " + std::to_string(MOST_METHODS) + " methods");
     const std::string which = "method " + std::to_string(i) + " ";
     if (described->struct_size < sizeof(lmdbench_method))
       fail(which + "is a structure of " + std::to_string(described->struct_size) + " bytes, not of " +
@@ -119,11 +119,13 @@ LoadedMethod::LoadedMethod(const lmdbench_method& method, const lmdbench_mesh& a
     : method_(method), counters_(LoadedPlugin::counters(method)), force_(LoadedPlugin::force(method)) {
   std::array<char, 512> message{};
   const FloatMode mode;
+  const auto begin = std::chrono::steady_clock::now();
   std::int32_t status = PluginReply::THREW;
   try {
     status = method.create(&a, &b, cutoff, options, &instance_, message.data(), message.size());
   } catch (...) {
   }
+  seconds_to_make_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   changed_float_mode_ = mode.restore();
   message.back() = '\0';
   if (status != 0)

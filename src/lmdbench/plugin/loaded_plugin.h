@@ -78,6 +78,7 @@ class LoadedMethod {
   /// @param contacts room for `capacity` contacts
   PluginReply search(const double* X_BA, lmdbench_contact* contacts, std::uint64_t capacity);
   bool changed_float_mode() const { return changed_float_mode_; }
+  double seconds_to_make() const { return seconds_to_make_; }
 
  private:
   const lmdbench_method& method_;
@@ -85,6 +86,7 @@ class LoadedMethod {
   const lmdbench_force* force_;
   void* instance_ = nullptr;
   bool changed_float_mode_ = false;
+  double seconds_to_make_ = 0.0;
 };
 
 }  // namespace lmdbench

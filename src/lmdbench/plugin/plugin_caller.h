@@ -43,6 +43,8 @@ class PluginCaller {
   virtual ~PluginCaller() = default;
   /// @param X_BA twelve numbers, as in lmdbench_method.h
   virtual PluginAnswer search(const double* X_BA) = 0;
+  /// In `create`, of the last start.
+  virtual double seconds_to_make() const = 0;
 };
 
 /// Runs it in a process of its own, started at the first call (or by `make_child_caller`, so that

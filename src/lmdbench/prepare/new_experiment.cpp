@@ -232,9 +232,10 @@ NewExperiment new_experiment(const std::string& moving, const std::string& fixed
                              const InitChoices& chosen) {
   NewExperiment result;
   // Names of meshes lead back through "..", which links would turn elsewhere.
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(given_folder);
+  std::error_code refused;  // shows where the folder is made
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(given_folder, refused);
   const std::filesystem::path folder =
-      canonical == std::filesystem::absolute(given_folder / "").lexically_normal().parent_path()
+      refused || canonical == std::filesystem::absolute(given_folder / "").lexically_normal().parent_path()
           ? given_folder
           : canonical;
   for (const std::string& mesh : {moving, fixed})

@@ -253,6 +253,7 @@ SceneLook look_at(const Experiment& experiment, const PreparedRun& prepared,
   look.force_limit = prepared.input.device.limit(prepared.profiles.front().force.largest_sum);
   look.frames = static_cast<std::int64_t>(in_contact.size());
   look.frames_in_contact = std::count(in_contact.begin(), in_contact.end(), true);
+  look.several_profiles = prepared.profiles.size() > 1;
   look.defaults = prepared.defaults;
   look.warnings = warnings_of_sizes(look.meshes);
   look_at_cutoff(look);
@@ -274,7 +275,8 @@ std::string to_text(const SceneLook& look) {
   text += fmt::format(
       "  cutoff {:.4g} m, saturation {:.4g} m, {:g} N an LMD at most, the sum clipped to {:g} N\n",
       look.cutoff, look.saturation, look.maximum_force, look.force_limit);
-  text += fmt::format("  {} frames, {} of them in contact\n", look.frames, look.frames_in_contact);
+  text += fmt::format("  {} frames, {} of them in contact{}\n", look.frames, look.frames_in_contact,
+                      look.several_profiles ? " of the first profile" : "");
   double total = 0.0;
   for (const ExpectedTime& time : look.times) {
     text += fmt::format("  about {:.2g} s for {}\n", time.seconds, time.stage);

@@ -58,7 +58,8 @@ struct SceneLook {
   double maximum_force = 0.0;  ///< Of one LMD [N].
   double force_limit = 0.0;    ///< Limit of the sum [N].
   std::int64_t frames = 0;
-  std::int64_t frames_in_contact = 0;
+  std::int64_t frames_in_contact = 0;  ///< Of the first profile.
+  bool several_profiles = false;
   /// Without a frame in contact: the least distance of the path [m], and its frame.
   double nearest = std::numeric_limits<double>::quiet_NaN();
   std::int64_t nearest_frame = -1;

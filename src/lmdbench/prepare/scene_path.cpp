@@ -154,8 +154,8 @@ void lengthen(std::vector<Pose>& poses, std::vector<double>& times, double frame
   const double frames = seconds * frame_rate_hz;
   if (!(frames < static_cast<double>(limit_of(Limit::FRAMES))))
     throw UsageError(file, "/driver/realtime/seconds",
-                     fmt::format("{:g} frames at {:g} Hz, above the limit of {}", frames, frame_rate_hz,
-                                 limit_of(Limit::FRAMES)),
+                     fmt::format("{:.15g} frames at {:g} Hz, above the limit of {}", std::round(frames) + 1.0,
+                                 frame_rate_hz, limit_of(Limit::FRAMES)),
                      "ask for less time, or " + raise_remedy(Limit::FRAMES));
   const auto wanted = static_cast<std::size_t>(std::llround(frames)) + 1;
   there_and_back(poses, wanted);
@@ -185,7 +185,7 @@ MoverPoses mover_poses(const Experiment& experiment, const std::vector<Mover>& m
         const double start = path.front().time, its_start = its.frames.front().time;
         if (std::abs(its_start - start) * experiment.frame_rate_hz > MOST_SHIFT)
           throw InputError(experiment.file.string(), object.motion.path_place,
-                           fmt::format("begins at {:.6f} s, but the path of the held object at {:.6f} s",
+                           fmt::format("begins at {:.15g} s, but the path of the held object at {:.15g} s",
                                        its_start, start),
                            "let both begin at one time: cut them or shift their times");
         if (its.frames.size() < path.size())

@@ -12,6 +12,7 @@
 #include <lmdbench/prepare/prepare.h>
 #include <lmdbench/stability/stability_map.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -70,6 +71,15 @@ std::vector<Pose> meant_path(const std::vector<Pose>& path, std::int64_t frames,
   return meant;
 }
 
+/// What the held mesh may touch: other movers rest at their first pose.
+Scene standing(Scene scene) {
+  for (std::size_t i = 0; i < scene.movers.size(); ++i)
+    if (i != scene.held) scene.fixed.emplace_back(scene.movers[i], (*scene.mover_poses)[i]);
+  scene.movers.clear();
+  scene.held = 0;
+  return scene;
+}
+
 void measure(StabilityMapRun& run, const MethodRecord& record, const ContactPorts& ports, const Scene& scene,
              double rate) {
   const auto settled = static_cast<std::size_t>(SETTLED_S * rate);
@@ -96,15 +106,13 @@ void measure(StabilityMapRun& run, const MethodRecord& record, const ContactPort
   run.amplitude_m = std::sqrt(spread / static_cast<double>(swing.position_W.size()));
   run.frequency_hz = judge(swing).frequency_hz;
   run.force_mean_n = mean(force);
-  if (2.0 * HIGH_PASS_HZ < rate) {
-    // The filter runs over the whole force, so that it is settled where measuring begins.
-    std::vector<Vec3> all;
-    for (const FrameRecord& frame : record.frames) all.push_back(frame.force);
-    const std::vector<Vec3> high = above_30_hz(all, 1.0 / rate);
-    double sum = 0.0;
-    for (std::size_t i = settled; i < frames; ++i) sum += high[i].squaredNorm();
-    run.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(frames - settled));
-  }
+  // The filter runs over the whole force, so that it is settled where measuring begins.
+  std::vector<Vec3> all;
+  for (const FrameRecord& frame : record.frames) all.push_back(frame.force);
+  const std::vector<Vec3> high = above_30_hz(all, 1.0 / rate);
+  double sum = 0.0;
+  for (std::size_t i = settled; i < frames; ++i) sum += high[i].squaredNorm();
+  run.force_above_30_hz_n = std::sqrt(sum / static_cast<double>(frames - settled));
   run.effective_stiffness_p99_n_per_m = quantile(stiffness, P99);
   // Where the device is, not what its encoders tell.
   std::vector<Pose> poses;
@@ -131,6 +139,9 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
     throw UsageError(file, "/loop/hand", "no hand with a spring presses the device",
                      "name one, such as postural-arm");
   const double rate = experiment.frame_rate_hz;
+  if (rate <= 2.0 * HIGH_PASS_HZ)
+    throw UsageError(file, "/frame_rate_hz", "too slow to tell what of the force is above 30 Hz",
+                     fmt::format("give more than {:g} Hz", 2.0 * HIGH_PASS_HZ));
   if (static_cast<double>(grid.frames) < (SETTLED_S + 0.2) * rate)
     throw UsageError(file, "/frames", "too few frames to settle and to be measured",
                      "give 0.7 seconds or more");
@@ -141,6 +152,7 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const MethodChoice& choice = experiment.methods[m];
     const PreparedProfile& profile = prepared.profiles[choice.profile];
+    const Scene scene = standing(profile.scene);
     const Wrench at_start =
         exact_wrench(profile.scene, profile.force, *experiment.profiles[choice.profile].aggregation,
                      choice.force_law, start);
@@ -171,7 +183,7 @@ void map_stability(const Experiment& experiment, const StabilityMapGrid& grid,
           input.frames = grid.frames;
           input.loop = loop;
           const MethodRecord record = run_lockstep({scaled}, input, driver, {}).front();
-          measure(run, record, contact_ports(input), profile.scene, rate);
+          measure(run, record, contact_ports(input), scene, rate);
           if (!sink(run)) return;
         }
       }

@@ -69,6 +69,14 @@ class Search {
     double scale = 1.0;
     StabilityTrial given = try_scale(scale);
     for (int i = 0; i < MOST_BRACKETINGS && !given.carried; ++i) given = try_scale(scale *= BRACKET_FACTOR);
+    // Under a push a softer contact leaves more way, which encoders may see.
+    for (int i = 0; i < MOST_BRACKETINGS && given.within_counts && !experiment_.loop.push_n.isZero(0.0);
+         ++i) {
+      const StabilityTrial softer = try_scale(scale / BRACKET_FACTOR);
+      if (!softer.carried || !softer.in_contact) break;
+      scale /= BRACKET_FACTOR;
+      given = softer;
+    }
     if (loop.turn) loop.turn->lever_m = given.lever_m;
     row.exact_n_per_m = critical_stiffness(loop);
     row.bound_n_per_m = sufficient_stiffness(loop);
@@ -155,10 +163,9 @@ class Search {
     } else if (at_low == Verdict::CLEAN) {
       row.clean_until = broken_by_;
     } else {
+      const bool stuck = at_first == Verdict::STUCK || (at_low == Verdict::STUCK && best_ > 0.0);
       best_ = 0.0;  // below the band proves nothing above it
-      row.clean_until = at_first == Verdict::STUCK  ? "stuck"
-                        : at_low == Verdict::UNSEEN ? "within_counts"
-                                                    : "never";
+      row.clean_until = stuck ? "stuck" : at_low == Verdict::UNSEEN ? "within_counts" : "never";
     }
   }
 

@@ -263,12 +263,14 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   held.poses.resize(1);
   held.loop = {};
   held.frames = hold_frames;
-  // The contact's own force and slope, which the device may clip.
+  // The contact's own force and slope, which device and profile may clip.
+  DrivenMethod unclipped = method;
+  unclipped.profile.largest_sum = std::numeric_limits<double>::infinity();
   Device strong = input.device.device();
   strong.maximum_force.value = std::numeric_limits<double>::infinity();
   held.device = VirtualPhantom(strong);
 
-  const auto at = [&](const Pose& X_WM) { return held_at(X_WM, held, method, driver); };
+  const auto at = [&](const Pose& X_WM) { return held_at(X_WM, held, unclipped, driver); };
 
   StabilityTrial trial;
   if (!loop.push_n.isZero(0.0)) {
@@ -282,10 +284,9 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   trial.force_at_rest_W = at_rest.force;
   Rest rest;
   rest.pose = held.poses.front();
-  rest.rendered = input.device.render({at_rest.force, at_rest.torque, 0.0});
+  rest.rendered = input.device.render({at_rest.force, at_rest.torque, 0.0}, method.profile.largest_sum);
   if (!loop.rotation) rest.rendered.torque.setZero();
-  trial.clipped =
-      at_rest.force_clipped || rest.rendered.clipped || (loop.rotation && rest.rendered.torque_clipped);
+  trial.clipped = rest.rendered.clipped || (loop.rotation && rest.rendered.torque_clipped);
   rest.range_m = std::min(method.profile.cutoff - at_rest.minimum_distance,
                           at_rest.minimum_distance - method.profile.saturation_distance);
   // K_eff holds the directions of contacts; between corners and edges they turn as the mesh moves.
