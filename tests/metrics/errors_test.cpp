@@ -161,6 +161,26 @@ TEST_F(SummariseErrorsTest, TruthOfEveryFrameTakesThePlaceOfTheProbes) {
   EXPECT_EQ(summary_.force_jump_maximum_n, 0.0);
 }
 
+/// Truth probed in every frame and truth of a complete method are of the same frames.
+TEST_F(SummariseErrorsTest, TheLastFrameCountsInBothRates) {
+  frames_.in_contact.assign(10, true);
+  CompleteTruth complete{"certified", {}, std::vector<std::int64_t>(10, 1)};
+  std::vector<TruthFrame> probed(10);
+  MethodRecord record;
+  for (int i = 0; i < 10; ++i) {
+    for (std::vector<Vec3>& forces : complete.force) forces.emplace_back(Vec3::Zero());
+    probed[static_cast<std::size_t>(i)].frame = i;
+    if (i == 9) probed[9].force_jump.fill(UNSET);
+    record.frames.push_back(frame_of(0.0));
+  }
+  MethodSummary of_probes, of_all;
+  summarise_errors(of_probes, ForceLaw::LINEAR, probed, std::vector<TruthComparison>(10), frames_);
+  summarise_true_steps(of_all, ForceLaw::LINEAR, record, complete, frames_);
+  EXPECT_EQ(of_probes.true_jump_frames, 10.0);
+  EXPECT_EQ(of_all.true_jump_frames, 10.0);
+  EXPECT_EQ(of_probes.true_jumps_per_second_high, of_all.true_jumps_per_second_high);
+}
+
 TEST_F(SummariseErrorsTest, StepsWithoutATrueForceCountNowhere) {
   CompleteTruth truth{"certified", {}, std::vector<std::int64_t>(10, 1)};
   MethodRecord record;

@@ -541,6 +541,20 @@ TEST(StabilitySearch, SpentBudgetIsUndecided) {
   EXPECT_EQ(find_critical_stiffness(experiment, {}, {.seconds = 1e-9}).at(0).clean_until, "undecided");
 }
 
+/// Poses under a push that none carries are looked at within the budget, too.
+TEST(StabilitySearch, TheBudgetHoldsWhereNothingIsCarried) {
+  const Experiment experiment = load_experiment(testing::WALL_FILE, {"/loop/push_n=[1, 0, 0]"});
+  std::int64_t told = 0;
+  const auto rows = find_critical_stiffness(experiment,
+                                            [&told](const std::string&, std::int64_t, std::int64_t) {
+                                              ++told;
+                                              return true;
+                                            },
+                                            {.seconds = 1e9, .trials = 1});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_GT(told, 10);
+}
+
 TEST(StabilitySearch, ProgressTellsTrialsAndStops) {
   const Experiment experiment = load_experiment(testing::WALL_FILE);
   std::string last;

@@ -171,7 +171,7 @@ void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<Tr
   LMDBENCH_EXPECTS(comparisons.size() == truth.size(), "comparisons with another truth");
   Agreement same, neighbours;
   std::size_t wrong = 0;
-  std::int64_t true_jumps = 0;
+  std::int64_t true_jumps = 0, known = 0;
   std::vector<double> distance, force, angle, jump, true_jump;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const TruthComparison& row = comparisons[i];
@@ -180,7 +180,11 @@ void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<Tr
     if (!row.same.exact()) ++wrong;
     distance.push_back(std::abs(row.minimum_distance_error));
     if (!frames.in_contact[static_cast<std::size_t>(truth[i].frame)]) continue;
+    // The time of the run's last frame counts, too, as in `summarise_true_steps`.
+    if (truth[i].frame + 1 == std::ssize(frames.in_contact) && truth[i].contact_without_direction() == 0)
+      ++known;
     if (!std::isnan(truth[i].force_jump[index])) {
+      ++known;
       jump.push_back(row.force_jump);
       true_jump.push_back(truth[i].force_jump[index]);
       if (truth[i].force_jump[index] > JUMP_SHARE * frames.maximum_force) ++true_jumps;
@@ -204,10 +208,9 @@ void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<Tr
   summary.force_jump_maximum_n = maximum(jump);
   summary.true_force_jump_p99_n = quantile(true_jump, P99);
   summary.true_force_jump_maximum_n = maximum(true_jump);
-  if (!true_jump.empty())
-    set_true_jumps(summary,
-                   count_events(true_jumps, static_cast<double>(true_jump.size()) / frames.frame_rate_hz),
-                   std::ssize(true_jump));
+  if (known > 0)
+    set_true_jumps(summary, count_events(true_jumps, static_cast<double>(known) / frames.frame_rate_hz),
+                   known);
 }
 
 void summarise_true_steps(MethodSummary& summary, ForceLaw law, const MethodRecord& record,
@@ -223,9 +226,10 @@ void summarise_true_steps(MethodSummary& summary, ForceLaw law, const MethodReco
     changes.push_back((record.frames[next].force - record.frames[i].force).norm());
     true_changes.push_back((forces[next] - forces[i]).norm());
   }
-  set_true_jumps(summary,
-                 count_events(count_jumps(forces, frames), static_cast<double>(known) / frames.frame_rate_hz),
-                 known);
+  if (known > 0)
+    set_true_jumps(
+        summary, count_events(count_jumps(forces, frames), static_cast<double>(known) / frames.frame_rate_hz),
+        known);
   summary.force_jump_p99_n = quantile(changes, P99);
   summary.force_jump_maximum_n = maximum(changes);
   summary.true_force_jump_p99_n = quantile(true_changes, P99);

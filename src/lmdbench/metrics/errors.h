@@ -77,7 +77,8 @@ void summarise_errors(MethodSummary& summary, ForceLaw law, const std::vector<Tr
 
 /// Jumps and changes of force, the method's and the true one's under its law, with truth in every
 /// frame. Jumps follow `summarise_jumps`: true sets give the truth's jumps. Rate and quantiles are
-/// over the frames in contact in which both true forces of the step are known.
+/// over the frames in contact in which both true forces of the step are known; the last one, which
+/// has no step, counts in the rate.
 void summarise_true_steps(MethodSummary& summary, ForceLaw law, const MethodRecord& record,
                           const CompleteTruth& truth, const RunFrames& frames);
 

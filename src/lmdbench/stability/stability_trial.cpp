@@ -139,11 +139,11 @@ class TrialPoses final : public PoseSource {
 /// The last of the frames with the method held at a pose; its distance is that of the held mesh,
 /// not of all that could move.
 FrameRecord held_at(const Pose& X_WM, DriverInput held, const DrivenMethod& method,
-                    const DriverChoice& driver) {
+                    const DriverChoice& driver, const Progress& progress) {
   held.poses.front() = X_WM;
   const Scene& scene = method.scene;
   if (scene.several_move()) held.keep_lmds = [](std::int64_t) { return true; };
-  const MethodRecord record = run_lockstep({method}, held, driver, {}).front();
+  const MethodRecord record = run_lockstep({method}, held, driver, progress).front();
   FrameRecord last = record.frames.back();
   if (!scene.several_move()) return last;
   LmdSet own = record.lmds.rbegin()->second;
@@ -270,7 +270,7 @@ StabilityTrial try_stiffness(const Experiment& experiment, const DriverInput& in
   strong.maximum_force.value = std::numeric_limits<double>::infinity();
   held.device = VirtualPhantom(strong);
 
-  const auto at = [&](const Pose& X_WM) { return held_at(X_WM, held, unclipped, driver); };
+  const auto at = [&](const Pose& X_WM) { return held_at(X_WM, held, unclipped, driver, progress); };
 
   StabilityTrial trial;
   if (!loop.push_n.isZero(0.0)) {

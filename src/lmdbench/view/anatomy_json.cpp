@@ -103,8 +103,12 @@ OrderedJson sights_json(const std::vector<SightCase>& cases) {
 std::string anatomy_json(const Scene& scene, const Pose& X_WM, double time, const std::vector<int>& levels) {
   const std::vector<SightCase> sights = sight_cases(scene, X_WM);
   if (sights.empty())
-    throw UsageError("", "--time", "at this pose the node tests leave no pair of triangles within the cutoff",
-                     "take another time of the path, at which the meshes are within the cutoff");
+    throw UsageError(
+        "", "",
+        fmt::format("at {:g} s of the path the node tests leave no pair of triangles within the cutoff",
+                    time),
+        "give a --time at which the meshes are within the cutoff, or a larger cutoff; `lmdbench plan` "
+        "says how near the path comes");
   OrderedJson around = OrderedJson::array();
   for (const Neighbourhood& found : neighbourhoods(scene.moving->surface(), sights.front().triangle_moving))
     around.push_back({{"kind", to_string(found.feature.kind)},
