@@ -163,7 +163,7 @@ class FiguresTest(Scratch):
             self.assertEqual(self.read(name, "first", f"{name}.svg"), self.read(name, "second", f"{name}.svg"), name)
 
     def test_says_what_is_wrong(self):
-        with self.assertRaisesRegex(ResultError, "another time of the path"):
+        with self.assertRaisesRegex(ResultError, "give a --time"):
             ask(PROGRAM, EXPERIMENT, 0.0, [2])
         with self.assertRaisesRegex(ResultError, "gone"):
             ask(PROGRAM, "gone.json")

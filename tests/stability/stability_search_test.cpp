@@ -550,7 +550,7 @@ TEST(StabilitySearch, TheBudgetHoldsWhereNothingIsCarried) {
                                               ++told;
                                               return true;
                                             },
-                                            {.seconds = 1e9, .trials = 1});
+                                            {.trials = 1, .seconds = 1e9});
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_GT(told, 10);
 }

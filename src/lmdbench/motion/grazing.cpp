@@ -117,7 +117,7 @@ GrazingPath grazing_path(const PathScene& scene, double cutoff, double haptic_ra
 
 GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double haptic_rate,
                               const std::function<double(const Path&)>& contacts,
-                              const ProgressFunction& progress) {
+                              const ProgressFunction& progress, const std::string& file) {
   double smallest = 0.0;
   std::optional<GrazingPath> best;
   double most = 0.0;
@@ -133,7 +133,7 @@ GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double hapt
     }
   }
   if (best) return std::move(*best);
-  throw InputError("", "",
+  throw InputError(file, "",
                    fmt::format("no path grazes: the last of {} came to {:.3g} m, the cutoff is {:.3g} m",
                                GRAZING_SEEDS, smallest, cutoff),
                    "the meshes may be nested or far too unequal: give a path, or check scale and diagonal_m");

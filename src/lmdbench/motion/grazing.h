@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 /// The path of a scene that has none: the moving mesh comes in, slides and turns well within the
 /// cutoff, and leaves again. `lmdbench init` writes its specification for editing.
@@ -53,9 +54,10 @@ inline constexpr double RICH_CONTACTS = 2.0;
 /// The first grazing path with RICH_CONTACTS; if none, the one with the most of RICH_SEEDS.
 /// @param contacts  counts a path's contacts; called once for every path that grazes
 /// @param progress  over all GRAZING_SEEDS, never going back; it ends early where fewer are enough
+/// @param file      that wants it, for messages
 /// @throws InputError as `grazing_path`
 GrazingPath rich_grazing_path(const PathScene& scene, double cutoff, double haptic_rate,
                               const std::function<double(const Path&)>& contacts,
-                              const ProgressFunction& progress = {});
+                              const ProgressFunction& progress = {}, const std::string& file = "");
 
 }  // namespace lmdbench

@@ -119,7 +119,8 @@ GrazingPath grazing_path_of(const Experiment& experiment, const Scene& scene, co
   return rich_grazing_path(
       mesh_scene(scene.moving->surface().mesh, std::move(fixed)), scene.cutoff, experiment.frame_rate_hz,
       [&](const Path& path) { return one_contact ? RICH_CONTACTS : median_contacts(scene, path); },
-      [&](std::size_t done, std::size_t all) { tell_progress(progress, done, all); });
+      [&](std::size_t done, std::size_t all) { tell_progress(progress, done, all); },
+      experiment.file.string());
 }
 
 }  // namespace

@@ -104,9 +104,7 @@ std::string anatomy_json(const Scene& scene, const Pose& X_WM, double time, cons
   const std::vector<SightCase> sights = sight_cases(scene, X_WM);
   if (sights.empty())
     throw UsageError(
-        "", "",
-        fmt::format("at {:g} s of the path the node tests leave no pair of triangles within the cutoff",
-                    time),
+        "", "", "at this time of the path the node tests leave no pair of triangles within the cutoff",
         "give a --time at which the meshes are within the cutoff, or a larger cutoff; `lmdbench plan` "
         "says how near the path comes");
   OrderedJson around = OrderedJson::array();
