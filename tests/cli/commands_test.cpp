@@ -338,10 +338,10 @@ TEST(MeshCommand, SaysWhereAMeshCrossesItselfAndIsInsideOut) {
 /// A prism whose walls are cut in two and whose ends have the corners of both.
 TEST(MeshCommand, JudgesAMeshAsARunTakesIt) {
   const ScratchDirectory scratch;
-  scratch.write(
-      "p.obj",
-      "v 0 0 0\nv 5 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 0 0 5\nv 5 0 5\nv 10 0 5\nv 10 10 5\n"
-      "v 0 10 5\nf 5 4 3 2 1\nf 6 7 8 9 10\nf 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 10 9\nf 5 1 6 10\n");
+  scratch.write("p.obj",
+                "v 0 0 0\nv 5 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 0 0 5\nv 5 0 5\nv 10 0 5\nv 10 10 5\n"
+                "v 0 10 5\nf 5 4 3\nf 5 3 1\nf 3 2 1\nf 6 7 8 9 10\nf 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 "
+                "10 9\nf 5 1 6 10\n");
   const Outcome info = lmdbench("mesh info p.obj", scratch.path());
   EXPECT_THAT(info.out, AllOf(HasSubstr("crosses self  none"), Not(HasSubstr("finding")),
                               HasSubstr("repairs       1 flat triangle, ")));
