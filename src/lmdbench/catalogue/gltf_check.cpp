@@ -250,7 +250,17 @@ class Gltf {
 
   /// Of a component of a type that indices or corners may have; 0 of another one.
   static std::uint64_t bytes_of(const Json& component) {
-    return component == 5121 ? 1 : component == 5123 ? 2 : component == 5125 || component == 5126 ? 4 : 0;
+    switch (is_whole(component) ? component.get<std::uint64_t>() : 0) {
+      case 5121:
+        return 1;
+      case 5123:
+        return 2;
+      case 5125:
+      case 5126:
+        return 4;
+      default:
+        return 0;
+    }
   }
 
   /// Whether a sparse accessor's indices or values are as many as it says.
