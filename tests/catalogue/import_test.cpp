@@ -160,8 +160,6 @@ TEST(ImportTest, IsSilentOnStandardOutput) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-// A glTF node tree: the same triangle once as it is, once moved, and once mirrored in x, which must
-// not turn it inside out.
 /// Of a triangle's corners and indices.
 std::string gltf_with(const std::string& of_corners, const std::string& of_view = R"("byteOffset": 0)") {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -173,6 +171,8 @@ std::string gltf_with(const std::string& of_corners, const std::string& of_view 
              "buffers": [{"byteLength": 42, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]})";
 }
 
+// A glTF node tree: the same triangle once as it is, once moved, and once mirrored in x, which must
+// not turn it inside out.
 TEST(ImportTest, MergesNodesWithTheirTransforms) {
   const ScratchDirectory folder;
   const std::filesystem::path file = folder.write("scene.gltf", R"({
@@ -525,6 +525,12 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenMesh{"gltf_mode_with_a_point", "a.gltf",
                    R"({"asset": {"version": "2.0"}, "meshes": [{"primitives": [{"mode": 5.0}]}]})",
                    "/meshes/0/primitives/0/mode: is not a whole number from 0 to 6"},
+        BrokenMesh{"gltf_behind_what_is_no_object", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "nodes": [{}, {"children": [0, {"mesh": 1.0}]}]})",
+                   "/nodes/1/children: is not a list"},
+        BrokenMesh{"gltf_primitive_behind_a_number", "a.gltf",
+                   R"({"asset": {"version": "2.0"}, "meshes": [{"primitives": [1, {"mode": 5.0}]}]})",
+                   "/meshes/0/primitives/1/mode: is not a whole number"},
         BrokenMesh{"gltf_base64", "a.gltf",
                    R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "data:a/b;base64,AAA!AA=="}]})",
                    "/buffers/0/uri: has the byte 0x21"},

@@ -8,6 +8,7 @@
 #include "support/scratch_directory.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/area_turning_left.h>
 #include <sys/resource.h>
 
 #include <cmath>
@@ -89,14 +90,8 @@ TEST(OffFileTest, CutsPolygonsFromACornerThatSeesThemWhole) {
   for (const std::string& face : faces) {
     const TriangleMesh mesh = parse_off("OFF\n4 1 0\n" + arrow + face, "dart.off");
     ASSERT_EQ(mesh.triangles.size(), 2u);
-    double area = 0.0;
-    for (std::int32_t t = 0; t < 2; ++t) {
-      const Triangle c = mesh.triangle(t);
-      const double twice = (c[1] - c[0]).cross(c[2] - c[0]).z();
-      EXPECT_GT(twice, 0.0) << face;
-      area += 0.5 * twice;
-    }
-    EXPECT_DOUBLE_EQ(area, 6.0) << face;
+    SCOPED_TRACE(face);
+    EXPECT_DOUBLE_EQ(testing::area_turning_left(mesh), 6.0);
   }
 }
 

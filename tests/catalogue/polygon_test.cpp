@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <support/area_turning_left.h>
 
 #include <algorithm>
 #include <array>
@@ -201,14 +202,7 @@ TEST(Polygon, ACornerAtThePlaceOfTheOneBeforeIsLeftOut) {
   const std::vector<std::int32_t> polygon{0, 1, 1, 2, 3, 4, 5, 5, 6};
   ASSERT_FALSE(add_polygon(polygon, mesh));
   ASSERT_EQ(mesh.triangles.size(), 4u);
-  double area = 0.0;
-  for (std::int32_t t = 0; t < 4; ++t) {
-    const Triangle c = mesh.triangle(t);
-    const double twice = (c[1] - c[0]).cross(c[2] - c[0]).z();
-    EXPECT_GT(twice, 0.0) << t;
-    area += twice;
-  }
-  EXPECT_EQ(area, 26.0);
+  EXPECT_EQ(2.0 * testing::area_turning_left(mesh), 26.0);
   const std::vector<std::int32_t> line{0, 5, 5, 0};
   ASSERT_FALSE(add_polygon(line, mesh));
   EXPECT_EQ(mesh.triangles.size(), 4u);

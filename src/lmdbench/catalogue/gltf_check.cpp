@@ -126,8 +126,7 @@ std::int64_t triangles_of(const Json& primitive, const Json& accessors) {
   const Json of = primitive.contains("indices") ? named(primitive, "indices", accessors)
                                                 : named(attributes, "POSITION", accessors);
   const Json count = of.is_object() ? of.value("count", Json()) : Json();
-  const Json given = primitive.value("mode", Json(TRIANGLES));
-  const std::int64_t mode = given.is_number_integer() ? given.get<std::int64_t>() : TRIANGLES;
+  const std::int64_t mode = primitive.value("mode", TRIANGLES);
   if (!count.is_number_unsigned() || count > limit_of(Limit::TRIANGLES)) return 0;
   const auto corners = count.get<std::int64_t>();
   if (mode == TRIANGLES) return corners / 3;
@@ -202,9 +201,9 @@ class Gltf {
       for (const auto& [key, member] : value.items())
         if (key != "extensions" && key != "extras")
           check_members(member, fmt::format("{}/{}", place, key), key);
-    if (value.is_array() && !value.empty() && value.front().is_object())
+    if (value.is_array())
       for (std::size_t i = 0; i < value.size(); ++i)
-        check_members(value[i], fmt::format("{}/{}", place, i), "");
+        if (value[i].is_object()) check_members(value[i], fmt::format("{}/{}", place, i), "");
   }
 
   void refuse_motion(const Json& object, const std::string& place) const {

@@ -61,12 +61,11 @@ class LineReader {
 
   /// The nearest number of single precision; 0 below its least one.
   double single(const char* what) {
-    const std::string_view text = word();
-    const auto value = static_cast<float>(number<double>(what, text));
-    const bool has_sign = text.starts_with('+');
-    float nearest = value;  // which rounding twice may miss
-    std::from_chars(text.data() + (has_sign ? 1 : 0), text.data() + text.size(), nearest);
-    return static_cast<double>(nearest);
+    const std::string_view text = word(), digits = without_plus(text);
+    float nearest = 0.0F;  // by way of double precision it would be rounded twice
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), nearest);
+    const bool is_read = error == std::errc{} && end == digits.data() + digits.size();
+    return static_cast<double>(is_read ? nearest : static_cast<float>(number<double>(what, text)));
   }
 
   /// @param what the number is, for messages
@@ -74,7 +73,7 @@ class LineReader {
   template <typename Number>
   Number number(const char* what, std::string_view text) const {
     if (text.empty()) fail(fmt::format("{} is missing", what));
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    text = without_plus(text);
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) fail(fmt::format("{} '{}' is out of range", what, text));
@@ -98,6 +97,10 @@ class LineReader {
   static constexpr std::string_view BLANKS = " \t\r";
   static constexpr std::array<std::string_view, 8> NO_NUMBERS{"INF", "IND", "QNAN", "SNAN",
                                                               "inf", "ind", "qnan", "snan"};
+
+  static std::string_view without_plus(std::string_view text) {
+    return text.substr(text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  }
 
   static std::size_t comment_of(std::string_view line) {
     std::size_t at = line.find('#');

@@ -78,28 +78,27 @@ std::vector<Corners> ears(const std::vector<Point>& at, double on_side) {
     return Corners{left[(k + left.size() - 1) % left.size()], left[k], left[(k + 1) % left.size()]};
   };
   // A corner at the place of one of the three is the other end of a slit or of a bridge to a hole.
-  const auto holds_a_corner = [&](const Corners& ear, const auto& is_within) {
+  const auto holds_a_corner = [&](const Corners& ear, double slack) {
     const Point &a = at[ear[0]], &b = at[ear[1]], &c = at[ear[2]];
+    const auto is_within = [slack](const Point& from, const Point& to, const Point& p) {
+      return area_of(from, to, p) >= -slack * (to - from).norm();
+    };
     return std::ranges::any_of(left, [&](std::size_t other) {
       const Point& p = at[other];
       return p != a && p != b && p != c && is_within(a, b, p) && is_within(b, c, p) && is_within(c, a, p);
     });
   };
-  const auto near = [&](const Point& a, const Point& b, const Point& p) {
-    return area_of(a, b, p) >= -on_side * (b - a).norm();
-  };
-  const auto inside = [](const Point& a, const Point& b, const Point& p) { return area_of(a, b, p) >= 0.0; };
   const auto full = [&](const Corners& ear) { return is_full(at[ear[0]], at[ear[1]], at[ear[2]], on_side); };
   const auto above = [&](double least) {
     return [&, least](const Corners& ear) { return area_of(at[ear[0]], at[ear[1]], at[ear[2]]) > least; };
   };
   std::size_t next = 0;  // goes round, so that no corner is the hub of a fan of slivers
-  const auto cut = [&](const auto& passes, const auto& is_within) {
+  const auto cut = [&](const auto& passes, double slack) {
     for (std::size_t tried = 0; tried < left.size(); ++tried) {
       const std::size_t step = (tried + 1) / 2;  // to both sides: the next ear is often near
       const std::size_t k = (next + (tried % 2 == 1 ? left.size() - step : step)) % left.size();
       const Corners ear = corners_at(k);
-      if (!passes(ear) || holds_a_corner(ear, is_within)) continue;
+      if (!passes(ear) || holds_a_corner(ear, slack)) continue;
       triangles.push_back(ear);
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
       next = k + 1;
@@ -108,7 +107,7 @@ std::vector<Corners> ears(const std::vector<Point>& at, double on_side) {
     return false;
   };
   while (left.size() > 3)
-    if (!cut(full, near) && !cut(above(0.0), inside) && !cut(above(ROUNDING * whole), inside)) return {};
+    if (!cut(full, on_side) && !cut(above(0.0), 0.0) && !cut(above(ROUNDING * whole), 0.0)) return {};
   const Corners last = corners_at(1);
   if (area_of(at[last[0]], at[last[1]], at[last[2]]) < ROUNDING * whole) return {};
   triangles.push_back(last);
