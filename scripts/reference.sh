@@ -18,7 +18,7 @@ BUILD="${LMDBENCH_BUILD:-build/release}"
 # results/reference/PART.md (or a name that begins so) is written from what PART prints.
 PARTS=(claims claim-regions completeness continuous-force deep-contact deform devices extreme figures flat global-search hard-soft hostile-input
   interrupted-runs jumps kernel leave-out ledger own-parts packages passivity realtime recall rivals scaling stability stability-map
-  triangle_accuracy truth tuned-constants work-precision worlds)
+  triangle_accuracy triangle_accuracy_million truth tuned-constants work-precision worlds)
 
 study() { "$BUILD/lmdbench-study" "$@"; }
 judge() { "$BUILD/lmdbench-judge" "$@"; }
@@ -141,10 +141,8 @@ part() {
       study stability experiments/stability/{box,wedge,peg,bunny}.json >"$OUT/stability-map.jsonl"
       figure stability_map "$OUT/stability-map.jsonl" --out "$OUT"
       ;;
-    triangle_accuracy)
-      judge accuracy
-      judge accuracy --million
-      ;;
+    triangle_accuracy) judge accuracy ;;
+    triangle_accuracy_million) judge accuracy --million ;;
     truth)
       local scenes=()
       mapfile -t scenes < <(extreme_scenes)

@@ -29,7 +29,7 @@ ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,catalogue/{CMakeLists.txt,'ass
   src/lmdbench/{phantom,plugin,prepare,probes,python,realtime,result,result_file,run,stability,sweep,view} experiments/judge/main.cpp
   experiments/support/'program.*')
 # What only tests and this script read.
-TESTS=(':!*_test.cpp' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
+TESTS=(':!*_test.cpp' ':!*_test.py' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
 # What searches in generated scenes include beside their study or judge.
 SEARCHED=(CMakeLists.txt CMakePresets.json src experiments/support "${ABOVE_METHODS[@]/#/:!}" "${TESTS[@]}")
 STUDIES=(experiments/study/{CMakeLists.txt,completeness,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})

@@ -359,10 +359,15 @@ class Surroundings(unittest.TestCase):
             journal.write_text(text)
             done = self.run_program(["work-precision", sweep, "--out", "s.h5"])
             self.assertEqual(done.returncode, DONE, f"{name}: {done.stderr}")
-        for change in ({"errors": {}}, {"result_hash": 3}, {"local_update_ns": [1]}, {"local_update_ns": "x"},
+        for change in ({"errors": {}}, {"local_update_ns": [1]}, {"local_update_ns": "x"},
                        {"errors": entry["errors"] | {"search_frames": [10**9] * len(entry["errors"]["search_frames"])}}):
             journal.write_text("\n".join([*lines[:at], json.dumps(entry | change), *lines[at + 1:]]) + "\n")
             self.assert_refused(self.run_program(["work-precision", sweep, "--out", "s.h5"]), INPUT_DATA, "points.jsonl")
+        # Repetitions that differ are made again.
+        journal.write_text("\n".join([*lines[:at], json.dumps(entry | {"result_hash": 3}), *lines[at + 1:]]) + "\n")
+        done = self.run_program(["work-precision", sweep, "--out", "s.h5"])
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn("done again: point 0 ", done.stderr)
         journal.write_text("my notes\n")
         self.assert_refused(self.run_program(["work-precision", sweep, "--out", "s.h5"]), USAGE)
         self.assertEqual(journal.read_text(), "my notes\n")

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The lmdbench authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <judge/accuracy_table.h>
 #include <support/files.h>
@@ -33,6 +34,9 @@ TEST(AccuracyTable, IsTheOneThatIsPublished) {
       << table;
   EXPECT_NE(published(MILLION_TABLE).find(table.substr(0, table.find('\n') + 1)), std::string::npos)
       << MILLION_TABLE << " is of other kernels";
+  EXPECT_NE(published(MILLION_TABLE).find(fmt::format("| **all, {} pairs** |", rows.size() * MILLION_PAIRS)),
+            std::string::npos)
+      << MILLION_TABLE << " is of other pairs";
 }
 
 class MillionTable : public ::testing::TestWithParam<TriangleFamily> {};
