@@ -28,6 +28,8 @@ PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages
 ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,catalogue/{CMakeLists.txt,'assimp_*','*_check.*','*_file.*','import.*',line_reader.h,'mesh_limits.*','polygon*'},cli,comparison,drivers,force,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
   src/lmdbench/{phantom,plugin,prepare,probes,python,realtime,result,result_file,run,stability,sweep,view} experiments/judge/main.cpp
   experiments/support/'program.*')
+# Of these what only the program itself reads.
+COMMANDS=(src/lmdbench/{cli,manual,python})
 # What only tests and this script read.
 TESTS=(':!*_test.cpp' ':!*_test.py' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
 # What searches in generated scenes include beside their study or judge.
@@ -65,8 +67,11 @@ commit_of() {
   case $1 in
   hostile | parts | solids | shapes | metamorphic) read=("${SEARCHED[@]}" "${STUDIES[@]}") ;;
   rest | generated) read=("${SEARCHED[@]}" experiments/judge) ;;
-  completeness) read=(CMakeLists.txt CMakePresets.json src experiments meshes paths ':!experiments/judge' "${TESTS[@]}") ;;
-  fuzz-*) read+=(':!experiments' "${TESTS[@]}") ;;
+  completeness)
+    read=(CMakeLists.txt CMakePresets.json src experiments meshes paths ':!experiments/judge' "${COMMANDS[@]/#/:!}" "${TESTS[@]}")
+    ;;
+  fuzz-*) read=(CMakeLists.txt CMakePresets.json src experiments/schema tests scripts/{fuzz,lib}.sh "${COMMANDS[@]/#/:!}" "${TESTS[@]}") ;;
+  mutants-*) read=(CMakeLists.txt CMakePresets.json src experiments meshes paths tests scripts/{mutants.sh,mutants.txt,lib.sh} ':!*.py') ;;
   reference) read+=("${TESTS[@]}") ;;
   esac
   git log -1 --format=%h -- "${read[@]}" ':!results/re*' ':!*.md' # not what runs left, as baselines are read

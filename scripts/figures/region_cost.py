@@ -118,7 +118,7 @@ def why_k6(measured):
     return [f"Why: {same}, so that the base ratio ({span(base)}) is that of what stands at a leaf: one exact distance of two triangles, "
             f"{span(distances)} a leaf pair with those of the trackings, against 49 distances of points. The reduction takes {span(share)} of "
             "the search in the median; only single searches take it as long. So the total ratio is "
-            f"{span(total)} and rarely reaches twice.", ""]
+            f"{span(total)} and {'never' if max(total) < 2.0 else 'rarely'} reaches twice.", ""]
 
 
 def updates(point):

@@ -95,11 +95,11 @@ TEST_F(HostileInput, PartFilesAreNeverLinksOrForeign) {
 }
 
 TEST_F(HostileInput, AFullDeviceIsAnErrorForEveryCommand) {
-  for (const std::string& command :
-       std::vector<std::string>{"mesh info sphere --dir '" LMDBENCH_SOURCE_DIR "/meshes'",
-                                "mesh list --dir '" LMDBENCH_SOURCE_DIR "/meshes'", "plan " + SHAPES,
-                                "path info '" LMDBENCH_SOURCE_DIR "/paths/shapes.tum'",
-                                "query --moving sphere --fixed sphere --cutoff 0.1"}) {
+  for (const std::string& command : std::vector<std::string>{
+           "mesh info sphere --dir '" LMDBENCH_SOURCE_DIR "/meshes'",
+           "mesh list --dir '" LMDBENCH_SOURCE_DIR "/meshes'", "plan " + SHAPES,
+           "path info '" LMDBENCH_SOURCE_DIR "/paths/shapes.tum'",
+           "query --moving sphere --fixed sphere --cutoff 0.1", "--help", "run --help", "--version"}) {
     const Outcome outcome = lmdbench(command + " >/dev/full ; echo $?");
     EXPECT_EQ(outcome.out, "4\n") << command << outcome.err;
   }

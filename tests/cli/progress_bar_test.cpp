@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <lmdbench/cli/progress_bar.h>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 namespace lmdbench {
 namespace {
@@ -53,6 +57,43 @@ TEST(ProgressBar, ALogGetsLinesNowAndThen) {
               AllOf(HasSubstr("run: 25 %"), HasSubstr("run: 50 %"), Not(HasSubstr("\r"))));
   EXPECT_EQ(lines_of(true, std::chrono::hours(1)), "") << "short commands are silent";
   EXPECT_EQ(lines_of(false, std::chrono::milliseconds(0)), "");
+}
+
+/// Standard error goes to `descriptor`, which it closes, until the end of the scope.
+class StandardErrorTo {
+ public:
+  explicit StandardErrorTo(int descriptor) {
+    EXPECT_GE(descriptor, 0);
+    dup2(descriptor, STDERR_FILENO);
+    close(descriptor);
+  }
+  ~StandardErrorTo() {
+    dup2(before_, STDERR_FILENO);
+    close(before_);
+  }
+
+ private:
+  int before_ = dup(STDERR_FILENO);
+};
+
+TEST(ProgressBar, WorkGoesOnWhereNothingCanBeTold) {
+  const StandardErrorTo full(open("/dev/full", O_WRONLY));
+  ProgressBar bar(true, std::chrono::milliseconds(0));
+  EXPECT_NO_THROW(bar.update("run", 1, 4));
+}
+
+TEST(ProgressBar, WorkGoesOnWhenTheTerminalIsGone) {
+  const int emulator = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(emulator, 0);
+  ASSERT_EQ(grantpt(emulator), 0);
+  ASSERT_EQ(unlockpt(emulator), 0);
+  const StandardErrorTo terminal(open(ptsname(emulator), O_RDWR | O_NOCTTY));
+  ProgressBar bar(true);  // its destructor wipes what was drawn
+  bar.update("run", 1, 4);
+  char drawn = '\0';
+  EXPECT_EQ(read(emulator, &drawn, 1), 1) << "a bar is drawn on a terminal";
+  close(emulator);
+  EXPECT_NO_THROW(bar.update("run", 4, 4));
 }
 
 TEST(ProgressLine, WithoutATotalIsThePhase) {

@@ -355,21 +355,24 @@ class Surroundings(unittest.TestCase):
             "cut": "\n".join(lines)[:-30],
             "no lines of ours": "\n".join([lines[0], '{"key":3,"repetition":"x"}', "[]", "null", "[" * 5000]) + "\n",
         }
-        for name, text in damage.items():
+
+        def swept(text):
             journal.write_text(text)
-            done = self.run_program(["work-precision", sweep, "--out", "s.h5"])
+            return self.run_program(["work-precision", sweep, "--out", "s.h5"])
+
+        def swept_with(change):
+            return swept("\n".join([*lines[:at], json.dumps(entry | change), *lines[at + 1:]]) + "\n")
+        for name, text in damage.items():
+            done = swept(text)
             self.assertEqual(done.returncode, DONE, f"{name}: {done.stderr}")
         for change in ({"errors": {}}, {"local_update_ns": [1]}, {"local_update_ns": "x"},
                        {"errors": entry["errors"] | {"search_frames": [10**9] * len(entry["errors"]["search_frames"])}}):
-            journal.write_text("\n".join([*lines[:at], json.dumps(entry | change), *lines[at + 1:]]) + "\n")
-            self.assert_refused(self.run_program(["work-precision", sweep, "--out", "s.h5"]), INPUT_DATA, "points.jsonl")
+            self.assert_refused(swept_with(change), INPUT_DATA, "points.jsonl")
         # Repetitions that differ are made again.
-        journal.write_text("\n".join([*lines[:at], json.dumps(entry | {"result_hash": 3}), *lines[at + 1:]]) + "\n")
-        done = self.run_program(["work-precision", sweep, "--out", "s.h5"])
+        done = swept_with({"result_hash": 3})
         self.assertEqual(done.returncode, DONE, done.stderr)
         self.assertIn("done again: point 0 ", done.stderr)
-        journal.write_text("my notes\n")
-        self.assert_refused(self.run_program(["work-precision", sweep, "--out", "s.h5"]), USAGE)
+        self.assert_refused(swept("my notes\n"), USAGE)
         self.assertEqual(journal.read_text(), "my notes\n")
 
     # Results that are damaged, old, or of other files

@@ -39,7 +39,7 @@ int run_program(int argc, char** argv) {
     app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) throw usage_error(*app, error);
-    return app->exit(error);  // prints help or the version
+    exit_status = app->exit(error);  // prints help or the version
   }
   // Lost output must not look like success; a command that flushes leaves the error flag.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

@@ -11,6 +11,16 @@
 #include <cstdio>
 
 namespace lmdbench {
+namespace {
+
+/// Work goes on where standard error is closed, a full disk or a terminal that is gone: fmt::print
+/// would throw.
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
 
 std::string progress_line(const std::string& phase, std::int64_t done, std::int64_t total, double elapsed) {
   constexpr int WIDTH = 30;
@@ -57,14 +67,13 @@ void ProgressBar::update(const std::string& phase, std::int64_t done, std::int64
   if (!on_terminal_) {
     if (now - last_line_ < silence_) return;
     last_line_ = now;
-    fmt::print(stderr, "lmdbench: info: {} ({:.0f} s so far)\n", progress_note(phase, done, total, elapsed),
-               std::chrono::duration<double>(now - begin_).count());
+    tell(fmt::format("lmdbench: info: {} ({:.0f} s so far)\n", progress_note(phase, done, total, elapsed),
+                     std::chrono::duration<double>(now - begin_).count()));
     return;
   }
   if (now - last_draw_ < std::chrono::milliseconds(100) && (done < total || total < 0)) return;
   last_draw_ = now;
-  fmt::print(stderr, "\r{}\x1b[K", progress_line(phase, done, total, elapsed));
-  std::fflush(stderr);
+  tell(fmt::format("\r{}\x1b[K", progress_line(phase, done, total, elapsed)));
   drawn_ = true;
 }
 
@@ -75,8 +84,7 @@ bool ProgressBar::operator()(const std::string& phase, std::int64_t done, std::i
 
 void ProgressBar::wipe() {
   if (!drawn_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  tell("\r\x1b[K");
   drawn_ = false;
 }
 
