@@ -24,8 +24,9 @@ mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd`, which all
 PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
   shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
 # Rooms and files that make no set: commands, drivers, numbers, files of results, interfaces, what
-# is told of meshes; and what reads meshes and paths, which searches in generated scenes make.
-ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,catalogue/{CMakeLists.txt,'assimp_*','*_check.*','*_file.*','import.*',line_reader.h,'mesh_limits.*','polygon*'},cli,comparison,drivers,force,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
+# is told of meshes; and what reads meshes and paths, which searches in generated scenes make, or
+# finds instances, of which those have none.
+ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,base/'child_process.*',scene/'instance_tree.*',catalogue/{CMakeLists.txt,'assimp_*','*_check.*','*_file.*','import.*',line_reader.h,'mesh_limits.*','polygon*'},cli,comparison,drivers,force,library,lmdbench.h,manual,mesh/'validity_report.*',metrics,motion}
   src/lmdbench/{phantom,plugin,prepare,probes,python,realtime,result,result_file,run,stability,sweep,view} experiments/judge/main.cpp
   experiments/support/'program.*')
 # Of these what only the program itself reads.
@@ -34,6 +35,8 @@ COMMANDS=(src/lmdbench/{cli,manual,python})
 TESTS=(':!*_test.cpp' ':!*_test.py' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
 # What searches in generated scenes include beside their study or judge.
 SEARCHED=(CMakeLists.txt CMakePresets.json src experiments/support "${ABOVE_METHODS[@]/#/:!}" "${TESTS[@]}")
+# What fuzzers are made of beside the library.
+FUZZED=(tests/{CMakeLists.txt,fuzz,support} scripts/{fuzz,lib}.sh)
 STUDIES=(experiments/study/{CMakeLists.txt,completeness,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
 POSES="${LMDBENCH_POSES:-1000000}"
 SEED="${LMDBENCH_SEED:-$(date +%Y%m%d)}"
@@ -70,7 +73,12 @@ commit_of() {
   completeness)
     read=(CMakeLists.txt CMakePresets.json src experiments meshes paths ':!experiments/judge' "${COMMANDS[@]/#/:!}" "${TESTS[@]}")
     ;;
-  fuzz-*) read=(CMakeLists.txt CMakePresets.json src experiments/schema tests scripts/{fuzz,lib}.sh "${COMMANDS[@]/#/:!}" "${TESTS[@]}") ;;
+  fuzz-lmd | fuzz-triangle) read=("${SEARCHED[@]}" "${FUZZED[@]}" tests/{geometry,methods}/fuzz) ;;
+  fuzz-off | fuzz-ply | fuzz-obj | fuzz-manifest)
+    read=(CMakeLists.txt CMakePresets.json src/lmdbench/{CMakeLists.txt,base,geometry,mesh,shape,catalogue} "${FUZZED[@]}" "${TESTS[@]}"
+      ':!src/lmdbench/base/child_process.*')
+    ;;
+  fuzz-*) read=(CMakeLists.txt CMakePresets.json src experiments/schema "${FUZZED[@]}" "${COMMANDS[@]/#/:!}" "${TESTS[@]}") ;;
   mutants-*) read=(CMakeLists.txt CMakePresets.json src experiments meshes paths tests scripts/{mutants.sh,mutants.txt,lib.sh} ':!*.py') ;;
   reference) read+=("${TESTS[@]}") ;;
   esac

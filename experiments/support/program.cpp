@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <support/program.h>
 
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <limits>
+#include <system_error>
 
 namespace lmdbench::experiments {
 
@@ -39,6 +41,9 @@ int report_errors(const std::function<int()>& run) {
   } catch (const Error& error) {
     std::cerr << "error: " << error.what() << '\n';
     return static_cast<int>(error.code());
+  } catch (const std::system_error& error) {
+    std::cerr << "error: the system refuses: " << error.what() << '\n';
+    return static_cast<int>(ExitCode::ENVIRONMENT);
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return static_cast<int>(ExitCode::INPUT_DATA);
@@ -78,7 +83,12 @@ int run_program(CLI::App& app, int argc, const char* const* argv, const std::fun
       return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::USAGE);
     }
     if (reports_name_node()) watch();
-    return run();
+    const int status = run();
+    // A table that is cut off must not look like one; who flushed it left the error flag.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw EnvironmentError("", "standard output", "cannot be written",
+                             "check the disk or the reader of the pipe");
+    return status;
   });
 }
 

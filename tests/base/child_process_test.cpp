@@ -54,6 +54,17 @@ TEST(ChildProcess, TellsHowItEnded) {
               HasSubstr("used up its 1 s"));
 }
 
+TEST(ChildProcess, InterruptsAreForTheParent) {
+  ChildProcess child(
+      [](const ChildProcess::Send& send) {
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::raise(signal);
+        send(std::array{std::byte{7}});
+      },
+      LIMITS);
+  std::array<std::byte, 1> byte;
+  EXPECT_TRUE(child.receive(byte)) << child.end_in_words();
+}
+
 TEST(ChildProcess, MemoryIsLimited) {
   if (IS_SANITIZED) GTEST_SKIP() << "sanitizers reserve more than any limit";
   EXPECT_THAT(end_of([] {

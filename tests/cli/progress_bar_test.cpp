@@ -82,6 +82,15 @@ TEST(ProgressBar, WorkGoesOnWhereNothingCanBeTold) {
   EXPECT_NO_THROW(bar.update("run", 1, 4));
 }
 
+TEST(ProgressBar, WorkGoesOnWhenNobodyReadsTheLog) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  close(ends[0]);
+  const StandardErrorTo log(ends[1]);
+  ProgressBar bar(true, std::chrono::milliseconds(0));
+  EXPECT_NO_THROW(bar.update("run", 1, 4));
+}
+
 TEST(ProgressBar, WorkGoesOnWhenTheTerminalIsGone) {
   const int emulator = posix_openpt(O_RDWR | O_NOCTTY);
   ASSERT_GE(emulator, 0);

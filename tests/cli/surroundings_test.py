@@ -122,7 +122,7 @@ class Surroundings(unittest.TestCase):
         # The address sanitizer looks for leaks in a process of its own, and fails without.
         options = os.environ.get("ASAN_OPTIONS", "").split(":") + ["detect_leaks=0"]
         environment = os.environ | {"ASAN_OPTIONS": ":".join(filter(None, options))}
-        for most in (0, 1, 3):
+        for most in (0, 1, 3, 4):
             with self.subTest(most=most):
                 def limited(command, most=most):
                     return without_root(["sh", "-c", f'ulimit -u {most}; exec "$0" "$@"', *command])
@@ -130,6 +130,8 @@ class Surroundings(unittest.TestCase):
                     self.run_program(self.short_run(f"r{most}.h5"), wrap=limited, env=environment))
                 self.assert_works_or_says_why(
                     self.run_program(["mesh", "info", self.small_mesh("m.obj")], wrap=limited, env=environment))
+                self.assert_works_or_says_why(
+                    self.run_program(self.short_run(f"c{most}.h5", "--driver", "realtime", "--set", "/driver/realtime/seconds=0.5"), wrap=limited, env=environment))
 
     def test_closed_standard_descriptors(self):
         def closed(command):

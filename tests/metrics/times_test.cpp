@@ -72,6 +72,8 @@ TEST_F(TimesTest, ASearchIsSpreadOverTheFramesUntilTheNext) {
     for (double& time : times.second_tracking) time = 0.0;
   }
   EXPECT_EQ(summary().frames_late, 1.0);
+  for (RepetitionTimes& times : record_.repetitions) times.local_update[4] = UNSET;
+  EXPECT_EQ(summary().frames_late, 2.0) << "a lost frame is not punctual";
 }
 
 TEST_F(TimesTest, TheOnlyRepetitionCounts) {

@@ -7,8 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <result_file/result_reading.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -45,6 +48,9 @@ const std::string RUN =
     "/force/cutoff_diagonal=0.15 "
     "--set '/methods=[{\"name\":\"original\"},{\"name\":\"improved\"},{\"name\":\"certified\"}]' --limit "
     "plugin-seconds=1 ";
+
+const std::string TETRAHEDRON =
+    "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 
 class HostilePlugins : public ::testing::Test {
  protected:
@@ -217,9 +223,47 @@ TEST_F(HostilePlugins, MayBeTrustedAndLeaveTheFloatModeAsItWas) {
   EXPECT_EQ(result.integers("/methods/throws/counters/frames_lost").at(2), 1);
 }
 
+TEST_F(HostilePlugins, LostFramesAreKnownToAResumedRun) {
+  const std::string file = (scratch_ / "r.h5").string();
+  setenv("LMDBENCH_STOPPED", (scratch_ / "stopped").c_str(), 1);
+  const std::string command = RUN + "--plugin " + FOLDER + "stops.so --out '" + file + "' --resume";
+  EXPECT_EQ(lmdbench(command).code, 128 + SIGINT) << "a shell's number for the signal";
+  const std::string dataset = "/methods/stops/local_update_time";
+  const std::vector<double> before = OpenResult(file + ".part").doubles(dataset);
+  EXPECT_EQ(lmdbench(command).code, 0);
+  unsetenv("LMDBENCH_STOPPED");
+  const std::vector<double> after = OpenResult(file).doubles(dataset);
+  int kept = 0, lost = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (std::isnan(before[i])) continue;
+    ++kept;
+    lost += before[i] < 0.0 ? 1 : 0;
+    if (before[i] < 0.0)
+      EXPECT_TRUE(std::isnan(after[i])) << "frame " << i << " was lost";
+    else
+      EXPECT_EQ(before[i], after[i]) << "frame " << i;
+  }
+  EXPECT_GE(kept, 20);
+  EXPECT_GE(lost, 3);
+}
+
+TEST_F(HostilePlugins, ASuspendedJobIsNoLateAnswer) {
+  std::ofstream(scratch_ / "tetra.off") << TETRAHEDRON;
+  std::string poses;
+  for (int i = 0; i < 8; ++i) poses += std::to_string(i) + " 2 0 0 0 0 0 1\n";
+  std::ofstream(scratch_ / "poses.tum") << poses;
+  const Outcome outcome =
+      lmdbench("--version; setsid '" LMDBENCH_PROGRAM
+               "' query --moving tetra.off --fixed tetra.off --cutoff 2 --poses poses.tum --plugin " +
+                   FOLDER +
+                   "slow.so --method slow --limit plugin-seconds=2 & p=$!; sleep 1.2; kill -STOP -$p; sleep "
+                   "2.5; kill -CONT -$p; wait $p",
+               scratch_.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
 TEST_F(HostilePlugins, QuerySaysWhatWasLost) {
-  std::ofstream(scratch_ / "tetra.off") << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
-                                           "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  std::ofstream(scratch_ / "tetra.off") << TETRAHEDRON;
   std::ofstream(scratch_ / "poses.tum")
       << "0 2 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n3 2 0 0 0 0 0 1\n";
   const auto query = [&](const std::string& name) {

@@ -56,6 +56,22 @@ TEST(Journal, DropsALineThatWasCutShortAndWritesBehindWhatIsWhole) {
   EXPECT_EQ(again.find("x", 1)->at("value"), 3);
 }
 
+TEST(Journal, WhatCannotBeReadIsNotTakenForItsEnd) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directory(scratch / "a.jsonl");  // opens, and every read fails
+  EXPECT_THROW(Journal{scratch / "a.jsonl"}, EnvironmentError);
+}
+
+TEST(Journal, KnowsWhichFileAnEntryIsFrom) {
+  const ScratchDirectory scratch;
+  Journal(scratch / "b.jsonl").append(entry("y", 0, 2));
+  Journal journal(scratch / "a.jsonl");
+  journal.append(entry("x", 0, 1));
+  journal.read_also(scratch / "b.jsonl");
+  EXPECT_EQ(journal.file_of("x", 0), scratch / "a.jsonl");
+  EXPECT_EQ(journal.file_of("y", 0), scratch / "b.jsonl");
+}
+
 TEST(Journal, IsNotTheFileOfSomebodyElse) {
   const ScratchDirectory scratch;
   EXPECT_FALSE(is_own_journal(scratch.write("notes.jsonl", "{\"format\":\"other\"}\n")));

@@ -68,8 +68,8 @@ void send_all(int descriptor, std::span<const std::byte> bytes) {
 [[noreturn]] void be_child(const std::function<void(const ChildProcess::Send&)>& work,
                            const ChildLimits& limits, rlim_t parent_space, int descriptor) {
   static_cast<void>(::prctl(PR_SET_PDEATHSIG, SIGKILL));
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  std::signal(SIGPIPE, SIG_IGN);
+  // Ctrl-C goes to it as well: whether its work still counts, the parent says, with whom it ends.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_IGN);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (nowhere >= 0) static_cast<void>(::dup2(nowhere, standard));

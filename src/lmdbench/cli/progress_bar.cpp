@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 namespace lmdbench {
@@ -49,7 +50,10 @@ std::string progress_note(const std::string& phase, std::int64_t done, std::int6
 }
 
 ProgressBar::ProgressBar(bool enabled, std::chrono::milliseconds silence)
-    : enabled_(enabled), on_terminal_(isatty(STDERR_FILENO) == 1), silence_(silence) {}
+    : enabled_(enabled), on_terminal_(isatty(STDERR_FILENO) == 1), silence_(silence) {
+  // Nor does the end of who reads the log end long work.
+  std::signal(SIGPIPE, SIG_IGN);
+}
 
 ProgressBar::~ProgressBar() {
   wipe();

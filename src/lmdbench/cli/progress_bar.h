@@ -11,6 +11,7 @@ namespace lmdbench {
 /// Progress of a long command on standard error: a bar on a terminal, else a line now and then.
 class ProgressBar {
  public:
+  /// From then on a write to a pipe that nobody reads fails, as to a full disk.
   /// @param enabled false switches it off in any case
   /// @param silence least time between lines without a terminal, and before the first of them
   explicit ProgressBar(bool enabled, std::chrono::milliseconds silence = std::chrono::seconds(10));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -17,6 +18,12 @@ namespace lmdbench {
 namespace {
 
 constexpr const char* FRAMES_MEASURED = "/frames_measured";
+/// Stands in the part for the time of a frame that a plugin lost: NaN says that none was measured.
+constexpr double LOST = -1.0;
+
+double time_of_part(double kept) {
+  return kept == LOST ? UNSET : kept;
+}
 
 const DatasetInfo& frames_measured_info() {
   static const DatasetInfo info{FRAMES_MEASURED, "1",
@@ -106,7 +113,8 @@ void RunKeeper::for_each_dataset(Visit&& visit) {
             DatasetInfo{group + kept.search_times[t].name, "s", kept.search_times[t].long_name},
             ElementKind::REAL, std::vector{repetitions, searches_}, std::size_t{1});
     visit(kept.local_update_time,
-          DatasetInfo{group + "local_update_time", "s", "time of the frame's local part, by repetition"},
+          DatasetInfo{group + "local_update_time", "s",
+                      "time of the frame's local part, by repetition; -1: a plugin gave no answer"},
           ElementKind::REAL, std::vector{repetitions, frames_}, std::size_t{1});
     if (deforms_)
       visit(kept.following_time, following_time_info(group), ElementKind::REAL,
@@ -198,8 +206,9 @@ void RunKeeper::keep(std::int64_t repetition, std::size_t method, MethodRecord& 
   const std::size_t row = static_cast<std::size_t>(repetition) * frames_ + frame;
   const auto known = static_cast<std::size_t>(kept.known_frames[static_cast<std::size_t>(repetition)]);
   if (frame < known) {
-    if (repetition == 0) check_force(frame, kept, record);
-    times.local_update.back() = kept.local_update_time.real(row);
+    // A method from outside may lose a frame, or answer otherwise.
+    if (repetition == 0 && times.way.empty()) check_force(frame, kept, record);
+    times.local_update.back() = time_of_part(kept.local_update_time.real(row));
     if (deforms_) times.following.back() = kept.following_time.real(row);
     if (frame + 1 == known) adopt_searches(repetition, kept, times);
     return;
@@ -215,16 +224,20 @@ void RunKeeper::keep(std::int64_t repetition, std::size_t method, MethodRecord& 
   if (deforms_) kept.following_time.set_real(row, times.following.back());
   // The frame counts from here on; the compiler must not store this any earlier.
   std::atomic_signal_fence(std::memory_order_seq_cst);
-  kept.local_update_time.set_real(row, times.local_update.back());
+  const double time = times.local_update.back();
+  kept.local_update_time.set_real(row, std::isnan(time) ? LOST : time);
   set_row(frames_measured_, 0, ++measured_);
 }
 
 void RunKeeper::keep_searches(std::int64_t repetition, KeptMethod& kept, const MethodRecord& record) {
-  const std::size_t search = record.searches.size() - 1;
-  if (repetition == 0) kept.searches.set(search, record.searches.back());
-  for (std::size_t t = 0; t < kept.search_times.size(); ++t)
-    kept.search_time_values[t].set_real(static_cast<std::size_t>(repetition) * searches_ + search,
-                                        (record.repetitions.front().*kept.search_times[t].times).back());
+  const std::size_t searches = record.searches.size();
+  // A frame may track the set of the search before and then begin a new one.
+  for (std::size_t search = searches - std::min<std::size_t>(searches, 2); search < searches; ++search) {
+    if (repetition == 0) kept.searches.set(search, record.searches[search]);
+    for (std::size_t t = 0; t < kept.search_times.size(); ++t)
+      kept.search_time_values[t].set_real(static_cast<std::size_t>(repetition) * searches_ + search,
+                                          (record.repetitions.front().*kept.search_times[t].times)[search]);
+  }
 }
 
 /// Known times of searches so far, of stages that the replay has had as well: the frame in which
@@ -265,7 +278,7 @@ RepetitionTimes RunKeeper::times(std::int64_t repetition, std::size_t method, st
   const auto first = static_cast<std::size_t>(repetition);
   RepetitionTimes times;
   for (std::size_t frame = 0; frame < frames_; ++frame)
-    times.local_update.push_back(kept.local_update_time.real(first * frames_ + frame));
+    times.local_update.push_back(time_of_part(kept.local_update_time.real(first * frames_ + frame)));
   for (std::size_t frame = 0; deforms_ && frame < frames_; ++frame)
     times.following.push_back(kept.following_time.real(first * frames_ + frame));
   for (std::vector<double>* of_searches :

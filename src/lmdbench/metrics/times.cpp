@@ -109,8 +109,9 @@ void summarise_times(MethodSummary& summary, const MethodRecord& record,
   summary.frame_time_p99_s = quantile(frame_times, P99);
   summary.frame_time_maximum_s = maximum(frame_times);
   if (!frame_times.empty())
+    // A frame that a plugin lost, or that had no tick, has no time: it was not punctual.
     summary.frames_late = static_cast<double>(std::count_if(
-        frame_times.begin(), frame_times.end(), [](double time) { return time > HAPTIC_FRAME_S; }));
+        frame_times.begin(), frame_times.end(), [](double time) { return !(time <= HAPTIC_FRAME_S); }));
 }
 
 namespace {

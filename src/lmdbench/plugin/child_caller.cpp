@@ -18,9 +18,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <system_error>
@@ -116,17 +117,16 @@ class Child {
 
   /// @return empty, or why there is no answer; then the child has ended
   std::string receive(wire::Answer& answer, double seconds) {
-    using Clock = std::chrono::steady_clock;
-    const auto until =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-    for (;;) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+    // In slices: a job that is suspended goes on with its plugin, and at most one slice has passed.
+    constexpr double SLICE = 0.25;
+    for (double left = seconds;;) {
+      const double slice = std::clamp(left, 0.0, SLICE);
       pollfd waiting{socket_.get(), POLLIN, 0};
-      const int ready =
-          left < 0 ? 0
-                   : ::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(left + 1, 1'000'000'000)));
+      const int ready = ::poll(&waiting, 1, static_cast<int>(std::ceil(slice * 1000.0)));
       if (ready < 0 && errno == EINTR) continue;
       if (ready == 0) {
+        left -= slice;
+        if (left > 0.0) continue;
         end();
         return fmt::format("gave no answer within {:g} s (--limit plugin-seconds=NUMBER)", seconds);
       }

@@ -220,7 +220,8 @@ std::string plan_json(const Plan& plan, const Experiment& experiment) {
     json[item.needed ? "needed" : "left_out"].push_back({{"part", item.name}, {"why", item.why}});
   if (!plan.rules.empty()) json["rules"] = rules_json(plan.rules);
   if (plan.scene) json["scene"] = to_json(*plan.scene);
-  return json.dump(2);
+  // Names of files may contain any bytes.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace lmdbench

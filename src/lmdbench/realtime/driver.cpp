@@ -113,7 +113,7 @@ class MethodOnClock {
 
   /// @return false when `progress` stopped it
   bool run(const std::function<bool(std::int64_t frames)>& progress) {
-    prime();
+    if (!prime(progress)) return false;
     const double stolen_before = stolen_seconds(cores_.used);
     std::vector<std::thread> threads;
     const auto start_thread = [&](auto body) {
@@ -125,13 +125,17 @@ class MethodOnClock {
         }
       });
     };
-    start_thread(&MethodOnClock::servo_thread);
-    start_thread(&MethodOnClock::scene_thread);
-    if (tracks_) {
-      start_thread(&MethodOnClock::search_thread);
-      start_thread(&MethodOnClock::tracking_thread);
+    try {
+      start_thread(&MethodOnClock::servo_thread);
+      start_thread(&MethodOnClock::scene_thread);
+      if (tracks_) {
+        start_thread(&MethodOnClock::search_thread);
+        start_thread(&MethodOnClock::tracking_thread);
+      }
+      if (choice_.plant.neighbour_busy_s > 0.0) start_thread(&MethodOnClock::neighbour_thread);
+    } catch (...) {  // refused by the system: those that run have to end
+      fail();
     }
-    if (choice_.plant.neighbour_busy_s > 0.0) start_thread(&MethodOnClock::neighbour_thread);
     bool wanted = true;
     while (!servo_ended_ && !stop_) {
       sleep_until_ns(monotonic_ns() + 50 * MS);
@@ -163,7 +167,8 @@ class MethodOnClock {
   RoleRecord& role(RoleIndex index) { return recorder_->clock.roles[static_cast<std::size_t>(index)]; }
 
   /// Before the clock starts: allocates what is allocated once; the first tick finds a set.
-  void prime() {
+  /// @return false when `progress` stopped it
+  bool prime(const std::function<bool(std::int64_t frames)>& progress) {
     LmdSet lmds;
     WorkCounters ignored;
     if (!tracks_) {
@@ -175,9 +180,12 @@ class MethodOnClock {
         first_->search(input_.poses[i], lmds, ignored);
       };
       for (int round = 0; round < 2; ++round)
-        for (std::size_t i = 0; i < poses; ++i) search_at(i);
+        for (std::size_t i = 0; i < poses; ++i) {
+          if (!progress(0)) return false;
+          search_at(i);
+        }
       search_at(0);
-      return;
+      return true;
     }
     PoseNote note;
     note.pose = note.before = input_.poses.front();
@@ -188,6 +196,7 @@ class MethodOnClock {
     exchange_.pose_for_tracking.publish();
     search_once({}, false);
     track_once(0);
+    return true;
   }
 
   void fail() {

@@ -11,8 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace lmdbench {
 
@@ -96,13 +99,27 @@ void InstanceTree::by_distance(const Eigen::Vector3d& point,
                                const std::function<bool(std::uint32_t instance, double bound)>& visit) const {
   const FloatPoint asked(static_cast<float>(point.x()), static_cast<float>(point.y()),
                          static_cast<float>(point.z()));
-  const auto all = static_cast<unsigned>(tree_->boxes.size());
-  if (all == 0) return;
-  for (auto found = tree_->boxes.qbegin(bg::index::nearest(asked, all)); found != tree_->boxes.qend();
-       ++found) {
-    const double distance = distance_of(asked, found->first);
-    const double bound = distance - ORDER_ROUNDING * (distance + point.cwiseAbs().maxCoeff());
-    if (!visit(found->second, std::max(0.0, bound))) return;
+  // More and more of the nearest: one query for all of them, incremental or not, sorts them all.
+  constexpr std::size_t FIRST_ASKED = 8, MORE = 8;
+  const std::size_t all = tree_->boxes.size();
+  std::vector<Entry> found;
+  std::vector<std::pair<double, std::uint32_t>> order;
+  std::vector<std::uint32_t> visited;
+  for (std::size_t count = FIRST_ASKED; visited.size() < all; count *= MORE) {
+    found.clear();
+    order.clear();
+    tree_->boxes.query(bg::index::nearest(asked, static_cast<unsigned>(std::min(count, all))),
+                       std::back_inserter(found));
+    for (const Entry& entry : found)
+      if (!std::binary_search(visited.begin(), visited.end(), entry.second))
+        order.emplace_back(distance_of(asked, entry.first), entry.second);
+    std::sort(order.begin(), order.end());
+    for (const auto& [distance, instance] : order) {
+      const double bound = distance - ORDER_ROUNDING * (distance + point.cwiseAbs().maxCoeff());
+      if (!visit(instance, std::max(0.0, bound))) return;
+      visited.push_back(instance);
+    }
+    std::sort(visited.begin(), visited.end());
   }
 }
 

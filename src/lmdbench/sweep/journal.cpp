@@ -20,6 +20,12 @@ using Json = nlohmann::json;
 constexpr const char* FORMAT = "lmdbench-sweep-journal-1";
 const std::string FIRST_LINE = std::string("{\"format\":\"") + FORMAT + "\"}\n";
 
+/// What follows could not be told from the end of the file, where the next line is written.
+[[noreturn]] void fail_to_read(const std::filesystem::path& file) {
+  throw EnvironmentError(file.string(), "", "cannot be read to its end",
+                         "check the disk and the permissions; nothing was changed");
+}
+
 [[noreturn]] void fail_to_write(const std::filesystem::path& file) {
   throw EnvironmentError(file.string(), "", std::string("cannot be written: ") + std::strerror(errno),
                          "check the disk and the permissions");
@@ -44,17 +50,20 @@ void Journal::read_also(const std::filesystem::path& other) {
 }
 
 std::uintmax_t Journal::read(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::status(file, ignored).type() == std::filesystem::file_type::not_found) return 0;
   std::ifstream stream(file, std::ios::binary);
   std::string line;
   std::uintmax_t whole = 0;
   while (std::getline(stream, line) && !stream.eof()) {
     whole += line.size() + 1;
-    remember(Json::parse(line, nullptr, false));
+    remember(Json::parse(line, nullptr, false), file);
   }
+  if (!stream.is_open() || stream.bad()) fail_to_read(file);
   return whole;
 }
 
-void Journal::remember(Json line) {
+void Journal::remember(Json line, const std::filesystem::path& file) {
   if (!line.is_object()) return;
   if (has_text(line, "failed") && has_text(line, "why")) {
     failures_[line["failed"].get<std::string>()] = line["why"].get<std::string>();
@@ -73,13 +82,17 @@ void Journal::remember(Json line) {
   } else if (has_text(line, "key")) {
     const auto key = line["key"].get<std::string>();
     failures_.erase(key);
-    entries_.try_emplace({key, repetition}, std::move(line));
+    entries_.try_emplace({key, repetition}, Entry{std::move(line), file});
   }
 }
 
 const Json* Journal::find(const std::string& key, std::int64_t repetition) const {
   const auto found = entries_.find({key, repetition});
-  return found == entries_.end() ? nullptr : &found->second;
+  return found == entries_.end() ? nullptr : &found->second.line;
+}
+
+const std::filesystem::path& Journal::file_of(const std::string& key, std::int64_t repetition) const {
+  return entries_.at({key, repetition}).file;
 }
 
 const std::vector<Json>& Journal::begun(const std::string& key, std::int64_t repetition) const {
@@ -125,7 +138,7 @@ void Journal::write(Json line) {
   }
   if (::fsync(descriptor.get()) != 0) fail_to_write(file_);
   whole_ += text.size();
-  remember(std::move(line));
+  remember(std::move(line), file_);
 }
 
 }  // namespace lmdbench

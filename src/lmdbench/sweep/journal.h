@@ -21,6 +21,7 @@ class Journal {
  public:
   /// Reads the file without a change. A line cut short (the process was killed) is dropped, as is
   /// any line of another kind.
+  /// @throws EnvironmentError when it is there and cannot be read to its end
   explicit Journal(std::filesystem::path file);
 
   /// Reads another journal as well, which is never written to. Of two entries for one point and
@@ -29,6 +30,9 @@ class Journal {
 
   /// The entry of a point and repetition; null where there is none.
   const nlohmann::json* find(const std::string& key, std::int64_t repetition) const;
+
+  /// Which of the files read has an entry that is there.
+  const std::filesystem::path& file_of(const std::string& key, std::int64_t repetition) const;
 
   /// @param entry has "key" and "repetition"
   /// @throws EnvironmentError when the disk does not take it
@@ -54,15 +58,19 @@ class Journal {
 
  private:
   using Place = std::pair<std::string, std::int64_t>;
+  struct Entry {
+    nlohmann::json line;
+    std::filesystem::path file;
+  };
 
   /// @return bytes up to the end of the last whole line
   std::uintmax_t read(const std::filesystem::path& file);
-  void remember(nlohmann::json line);
+  void remember(nlohmann::json line, const std::filesystem::path& file);
   void write(nlohmann::json line);
 
   std::filesystem::path file_;
   std::uintmax_t whole_ = 0;  ///< Bytes of whole lines: the next line begins there.
-  std::map<Place, nlohmann::json> entries_;
+  std::map<Place, Entry> entries_;
   std::map<Place, std::vector<nlohmann::json>> begun_;
   std::map<std::string, std::string> failures_;
 };

@@ -196,12 +196,13 @@ bool repetitions_differ(const Journal& journal, const std::string& key, std::int
 /// @throws InputError for a damaged line with the point's key
 PointResult finished_point(const SweepPoint& point, const std::string& key, std::int64_t repetitions,
                            const Journal& journal) {
+  std::int64_t repetition = 0;
   try {
     const PointErrors errors = PointErrors::from_json(journal.find(key, 0)->at("errors"));
     std::vector<PointRun> runs;
     std::vector<Json> where;
     std::int64_t begun = 0;
-    for (std::int64_t repetition = 0; repetition < repetitions; ++repetition) {
+    for (; repetition < repetitions; ++repetition) {
       const Json& entry = *journal.find(key, repetition);
       runs.push_back(PointRun::from_json(entry));
       if (!errors.fits(runs.back())) throw std::out_of_range("unlike numbers of frames or searches");
@@ -213,8 +214,8 @@ PointResult finished_point(const SweepPoint& point, const std::string& key, std:
     result.begun = begun;
     return result;
   } catch (const std::exception& error) {  // of JSON, or numbers that do not fit
-    throw InputError(journal.file().string(), "key " + key, std::string("a line is damaged: ") + error.what(),
-                     "remove the file and run again");
+    throw InputError(journal.file_of(key, std::min(repetition, repetitions - 1)).string(), "key " + key,
+                     std::string("a line is damaged: ") + error.what(), "remove the line and run again");
   }
 }
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Plugins that break rules, each this file with another KIND. All have some good frames, which
-// shows the fate of the others. GOOD, PUSHES, SAYS_GOODBYE and SLOW do nothing wrong.
+// shows the fate of the others. GOOD, PUSHES, SAYS_GOODBYE and SLOW do nothing wrong; STOPS throws,
+// and interrupts the program once.
 #include <lmdbench/plugin/lmdbench_method.h>
 
 #include <unistd.h>
@@ -43,6 +44,7 @@
 #define SLOW 21
 #define ENDLESS_SCHEMA 22
 #define ENDLESS_TABLE 23
+#define STOPS 24
 
 namespace {
 
@@ -96,7 +98,7 @@ std::int32_t create(const lmdbench_mesh* a, const lmdbench_mesh* b, double /*cut
 #elif KIND == GROWS && defined(__SSE__)
   _mm_setcsr(_mm_getcsr() | 0x8040);
   *needed = capacity + 1;
-#elif KIND == THROWS
+#elif KIND == THROWS || KIND == STOPS
   throw std::runtime_error("out of a C interface");
 #elif KIND == EXITS
   std::exit(0);
@@ -125,6 +127,11 @@ std::int32_t search(void* instance, const double* X, lmdbench_contact* contacts,
   for (int r = 0; r < 3; ++r) self.origin[r] = X[4 * r + 3];
   *needed = all.size();
   for (std::uint64_t i = 0; i < *needed && i < capacity; ++i) contacts[i] = all[i].second;
+  const char* const stopped = std::getenv("LMDBENCH_STOPPED");
+  if (KIND == STOPS && self.calls == 20 && stopped != nullptr && ::access(stopped, F_OK) != 0) {
+    if (std::FILE* const written = std::fopen(stopped, "w")) std::fclose(written);
+    ::kill(::getppid(), SIGINT);
+  }
   if (++self.calls % 5 == 3) misbehave(contacts, capacity, needed);
   if (KIND == SLOW) ::usleep(300000);
   return KIND == GROWS && self.calls == 9 ? 7 : 0;
