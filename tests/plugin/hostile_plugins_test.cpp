@@ -252,12 +252,12 @@ TEST_F(HostilePlugins, ASuspendedJobIsNoLateAnswer) {
   std::string poses;
   for (int i = 0; i < 8; ++i) poses += std::to_string(i) + " 2 0 0 0 0 0 1\n";
   std::ofstream(scratch_ / "poses.tum") << poses;
+  // The program goes on first: its plugin cannot have answered.
   const Outcome outcome =
-      lmdbench("--version; setsid '" LMDBENCH_PROGRAM
-               "' query --moving tetra.off --fixed tetra.off --cutoff 2 --poses poses.tum --plugin " +
-                   FOLDER +
-                   "slow.so --method slow --limit plugin-seconds=2 & p=$!; sleep 1.2; kill -STOP -$p; sleep "
-                   "2.5; kill -CONT -$p; wait $p",
+      lmdbench("query --moving tetra.off --fixed tetra.off --cutoff 2 --poses poses.tum --plugin " + FOLDER +
+                   "slow.so --method slow --limit plugin-seconds=2 & p=$!; sleep 1.2; c=$(cat "
+                   "/proc/$p/task/$p/children); "
+                   "kill -STOP $p $c; sleep 2.5; kill -CONT $p; sleep 0.3; kill -CONT $c; wait $p",
                scratch_.path());
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
