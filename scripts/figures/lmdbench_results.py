@@ -305,9 +305,11 @@ def misses_all(recall, force_error):
 def nan_median(values, axis=None):
     """Median of what was measured; NaN without a warning where nothing was."""
     values = np.asarray(values, dtype=float)
+    if not values.size:
+        return np.nan if axis is None else np.full(np.delete(values.shape, axis), np.nan)
     empty = np.all(np.isnan(values), axis=axis)
     filled = np.where(np.expand_dims(empty, axis) if axis is not None else empty, 0.0, values)
-    return np.where(empty, np.nan, np.nanmedian(filled, axis=axis)) if values.size else np.nan
+    return np.where(empty, np.nan, np.nanmedian(filled, axis=axis))
 
 
 def quantile(values, share):

@@ -278,9 +278,11 @@ MEAN_EDGES = {"bunny-16k": 0.0128, "armadillo": 0.0068}  # of the diagonal: `lmd
 
 def cutoff_text(point):
     experiment = point.experiment
-    force, moving = experiment["force"], (experiment.get("moving") or experiment["objects"][0])["mesh"]
+    force, moving = experiment.get("force", {}), (experiment.get("moving") or experiment["objects"][0])["mesh"]
     force = force[0] if isinstance(force, list) else force
     share = force.get("cutoff_diagonal")
+    if share is None and "cutoff_m" not in force:
+        return "Cutoff: the default."
     if share is None:
         return f"Cutoff {1e3 * force['cutoff_m']:g} mm."
     edges = f", {shown(share / MEAN_EDGES[moving], 2)} mean edges of `{moving}`" if moving in MEAN_EDGES else ""

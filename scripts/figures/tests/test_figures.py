@@ -53,6 +53,10 @@ class ScriptsTest(SharedScratch):
 
 
 class ReadingTest(ScriptsTest):
+    def test_nothing_measured_has_a_median_a_column(self):
+        self.assertEqual(lmdbench_results.nan_median(np.empty((3, 0)), axis=0).shape, (0,))
+        self.assertTrue(np.isnan(lmdbench_results.nan_median([])))
+
     def test_warm_up_is_in_no_time(self):
         method = Result(self.hard).method("original")
         self.assertEqual(method.read("local_update_time").shape[0], 5)

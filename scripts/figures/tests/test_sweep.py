@@ -131,6 +131,9 @@ class SweepFile(SweepScratch):
         text = sweep.markdown(sweep_results.Sweep(self.file), "")
         self.assertIn(f"\ntest. Made by `lmdbench work-precision 'my sweep.json' --out test.h5` and `scripts/figures/sweep.py {self.file}` at", text)
         self.assertIn("Cutoff 2 mm.", text)
+        with h5py.File(self.file, "a") as h5:
+            h5["points/experiment"][0] = json.dumps({key: value for key, value in experiment.items() if key != "force"})
+        self.assertIn("Cutoff: the default.", sweep.markdown(sweep_results.Sweep(self.file), ""))
 
     def test_what_changes_the_truth_makes_panels_and_fronts_of_its_own(self):
         def at(cutoff, entries):

@@ -32,7 +32,7 @@ class FakeRow:
     def __init__(self, label, error, median, p99, late=0, wrong=0):
         self.label, self.force_error = label, error
         self.late = late
-        self.numbers = {"frame_time_median_s": median, "frame_time_p99_s": p99, "frames_wrong": wrong}
+        self.numbers = {"frame_time_median_s": median, "frame_time_p99_s": p99, "frames_wrong": wrong, "frames_in_contact": 1000}
 
     def number(self, name):
         return self.numbers[name]
@@ -54,6 +54,10 @@ class Answer(Scratch):
 
     def test_says_how_many_frames_are_late(self):
         self.assertIn("3 of its frames are late", sentence([FakeRow("a", 0.0, 1e-5, 1e-4, late=3)]))
+
+    def test_a_method_that_loses_frames_is_not_within_the_budget(self):
+        rows = [FakeRow("loses", 0.1, 1e-6, 2e-6, late=11), FakeRow("answers", 0.5, 1e-5, 1e-4, late=10)]
+        self.assertIn("answers leaves the least force error", sentence(rows))
 
     def test_says_when_no_method_is_in_time_or_judged(self):
         self.assertIn("No method keeps", sentence([FakeRow("a", 0.0, 1e-3, 2e-3)]))
