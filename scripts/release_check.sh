@@ -33,8 +33,10 @@ ABOVE_METHODS=(src/lmdbench/{base/git_state.cmake,base/'child_process.*',scene/'
 COMMANDS=(src/lmdbench/{cli,manual,python})
 # What only tests and this script read.
 TESTS=(':!*_test.cpp' ':!*_test.py' ':!scripts/mutants.txt' ':!scripts/release_check.sh')
+# What every part reads that builds something.
+BUILD=(CMakeLists.txt CMakePresets.json)
 # What searches in generated scenes include beside their study or judge.
-SEARCHED=(CMakeLists.txt CMakePresets.json src experiments/support "${ABOVE_METHODS[@]/#/:!}" "${TESTS[@]}")
+SEARCHED=("${BUILD[@]}" src experiments/support "${ABOVE_METHODS[@]/#/:!}" "${TESTS[@]}")
 # What fuzzers are made of beside the library.
 FUZZED=(tests/{CMakeLists.txt,fuzz,support} scripts/{fuzz,lib}.sh)
 STUDIES=(experiments/study/{CMakeLists.txt,completeness,studies.h,hostile.cpp,metamorphic.cpp,parts.cpp})
@@ -71,15 +73,15 @@ commit_of() {
   hostile | parts | solids | shapes | metamorphic) read=("${SEARCHED[@]}" "${STUDIES[@]}") ;;
   rest | generated) read=("${SEARCHED[@]}" experiments/judge) ;;
   completeness)
-    read=(CMakeLists.txt CMakePresets.json src experiments meshes paths ':!experiments/judge' "${COMMANDS[@]/#/:!}" "${TESTS[@]}")
+    read=("${BUILD[@]}" src experiments meshes paths ':!experiments/judge' "${COMMANDS[@]/#/:!}" "${TESTS[@]}")
     ;;
   fuzz-lmd | fuzz-triangle) read=("${SEARCHED[@]}" "${FUZZED[@]}" tests/{geometry,methods}/fuzz) ;;
   fuzz-off | fuzz-ply | fuzz-obj | fuzz-manifest)
-    read=(CMakeLists.txt CMakePresets.json src/lmdbench/{CMakeLists.txt,base,geometry,mesh,shape,catalogue} "${FUZZED[@]}" "${TESTS[@]}"
+    read=("${BUILD[@]}" src/lmdbench/{CMakeLists.txt,base,geometry,mesh,shape,catalogue} "${FUZZED[@]}" "${TESTS[@]}"
       ':!src/lmdbench/base/child_process.*')
     ;;
-  fuzz-*) read=(CMakeLists.txt CMakePresets.json src experiments/schema "${FUZZED[@]}" "${COMMANDS[@]/#/:!}" "${TESTS[@]}") ;;
-  mutants-*) read=(CMakeLists.txt CMakePresets.json src experiments meshes paths tests scripts/{mutants.sh,mutants.txt,lib.sh} ':!*.py') ;;
+  fuzz-*) read=("${BUILD[@]}" src experiments/schema "${FUZZED[@]}" "${COMMANDS[@]/#/:!}" "${TESTS[@]}") ;;
+  mutants-*) read=("${BUILD[@]}" src experiments meshes paths tests scripts/{mutants.sh,mutants.txt,lib.sh} ':!*.py') ;;
   reference) read+=("${TESTS[@]}") ;;
   esac
   git log -1 --format=%h -- "${read[@]}" ':!results/re*' ':!*.md' # not what runs left, as baselines are read

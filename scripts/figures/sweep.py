@@ -281,10 +281,8 @@ def cutoff_text(point):
     force, moving = experiment.get("force", {}), (experiment.get("moving") or experiment["objects"][0])["mesh"]
     force = force[0] if isinstance(force, list) else force
     share = force.get("cutoff_diagonal")
-    if share is None and "cutoff_m" not in force:
-        return "Cutoff: the default."
     if share is None:
-        return f"Cutoff {1e3 * force['cutoff_m']:g} mm."
+        return f"Cutoff {1e3 * force['cutoff_m']:g} mm." if "cutoff_m" in force else "Cutoff: the default."
     edges = f", {shown(share / MEAN_EDGES[moving], 2)} mean edges of `{moving}`" if moving in MEAN_EDGES else ""
     return f"Cutoff {100 * share:g} % of the diagonal{edges}."
 
