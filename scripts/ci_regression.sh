@@ -92,7 +92,9 @@ build_revision() {
   tree="$(tree_of "$1")"
   [[ ! -x $tree/build/release/lmdbench ]] || return 0
   say "building $1"
-  (worktree_at "$tree" "$1" && cd "$tree" && export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$tree}" CCACHE_NOHASHDIR=1 &&
+  # Whole, though a call was killed in its checkout.
+  (worktree_at "$tree" "$1" && cd "$tree" && rm -f "$(git rev-parse --git-path index.lock)" && git reset --quiet --hard &&
+    export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$tree}" CCACHE_NOHASHDIR=1 &&
     cmake --preset release -DLMDBENCH_BUILD_TESTS=OFF -DLMDBENCH_BUILD_EXPERIMENTS=OFF -DLMDBENCH_WITH_CGAL=OFF \
       -DLMDBENCH_PRECOMPILED_HEADERS=OFF "${cmake_options[@]}" &&
     cmake --build --preset release --parallel "$JOBS" --target lmdbench) >"$out/build-$1.log" 2>&1

@@ -51,14 +51,13 @@ MACHINE="$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1), $
 
 # in_fresh_clone COMMAND: for a newcomer, whose folder only has committed files; with the pages of
 # now, which tell how old they are since COMMIT.
-in_fresh_clone() {
-  local clone status=0
+in_fresh_clone() (
   clone="$(mktemp -d)"
+  trap 'rm -rf "$clone"' EXIT
+  trap 'exit 143' TERM
   chmod 755 "$clone" # some tests run the program as another user
-  git clone --quiet "$ROOT" "$clone/lmdbench" && (cd "$clone/lmdbench" && "$@" </dev/null) || status=$?
-  rm -rf "$clone"
-  return "$status"
-}
+  git clone --quiet "$ROOT" "$clone/lmdbench" && cd "$clone/lmdbench" && "$@" </dev/null
+)
 # of_each N: poses of each of N kinds (pairs of shapes in each of their coordinates) that make POSES
 # in all.
 of_each() { echo $(((POSES + $1 - 1) / $1)); }
@@ -160,7 +159,10 @@ for name in "${chosen[@]}"; do
   (part "$name") >"$made.txt" 2>&1 || status=$?
   # What ctest counts stands above the tests that it skipped; test.sh counts more than tests.
   counts='% tests passed'
-  [[ $name != test ]] || counts='^[0-9]* passed, [0-9]* failed'
+  case $name in
+  test) counts='^[0-9]* passed, [0-9]* failed' ;;
+  fuzz-*) counts="^${name#*-} " ;; # below it stands where finds are
+  esac
   last="$( (grep -a "$counts" "$made.txt" || grep -av '^[[:space:]]*$' "$made.txt") | tail -n 1 | tr '|' '/' | cut -c1-120)"
   skipped="$(grep -ac '(Skipped)$' "$made.txt")"
   [[ $name == test ]] || ((skipped == 0)) || last+=", $skipped skipped"

@@ -5,7 +5,7 @@
 import numpy as np
 
 import figure_style as style
-from intervals import bootstrap
+from intervals import bootstrap, poisson_interval
 from tables import table
 
 import matplotlib.pyplot as plt
@@ -41,13 +41,15 @@ class Clock:
 
     def skipped_per_million(self, of):
         """(rate, low, high) of instants without a turn per million instants, of the servo loop or of the floor. They come in
-        bursts, so that the interval is by blocks of instants."""
+        bursts, so that the interval is by blocks of instants; where none was missed it is that of bursts of one."""
         missed = self.read("frame_source") == 1 if of == "servo" else np.concatenate([self.missed(name) for name in ("floor_before", "floor_after")])
         blocks = [(float(block.sum()), block.size) for block in np.array_split(missed, max(missed.size // BLOCK, 1))]
 
         def rate(drawn):
             return 1e6 * sum(count for count, _ in drawn) / max(sum(size for _, size in drawn), 1)
 
+        if not missed.any():
+            return (0.0, *(1e6 * limit / max(missed.size, 1) for limit in poisson_interval(0)))
         return (rate(blocks), *bootstrap(blocks, rate))
 
     def missed(self, loop):

@@ -11,7 +11,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
-from lmdbench_results import refuse_foreign  # noqa: E402
+from lmdbench_results import NOT_JUDGED, refuse_foreign  # noqa: E402
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter  # noqa: E402
 
 TWO_COLUMNS_IN = 7.2  # text width of a two-column page
@@ -186,11 +186,16 @@ MOST_NOTED = 4  # failures at the foot of a figure
 
 
 def note_failures(figure, failures):
-    """At the foot: whose mark stands in the lane of failures, and why. @param failures {name: reason}"""
-    if failures:
-        note = "failed: " + "; ".join(f"{shortened(name, 2 * LONGEST_NAME)}, {literal(reason)}" for name, reason in failures.items())
-        if len(failures) > MOST_NOTED:  # more would cover the plot
-            note = f"{len(failures)} failed: see the table"
+    """At the foot: whose mark stands in the lane of failures, or nowhere, and why. @param failures {name: reason}"""
+    notes = []
+    for word, told in (("failed", {name: why for name, why in failures.items() if why != NOT_JUDGED}),
+                       ("not drawn", {name: why for name, why in failures.items() if why == NOT_JUDGED})):
+        if len(told) > MOST_NOTED:  # more would cover the plot
+            notes.append(f"{len(told)} {word}: see the table")
+        elif told:
+            notes.append(f"{word}: " + "; ".join(f"{shortened(name, 2 * LONGEST_NAME)}, {literal(reason)}" for name, reason in told.items()))
+    if notes:
+        note = ". ".join(notes)
         figure.text(0.012, 0.004, note, fontsize=5.5, color="#444444", wrap=True, va="bottom")
 
 

@@ -95,14 +95,16 @@ def sets_of(method, frames, scene):
 
 def refuse_others(run):
     """How far a pair travels is known where one rigid mesh follows one path, and its force under one profile."""
+    laws = list(dict.fromkeys(method.aggregation for method in run.methods.values() if method.aggregation != "sum"))
     profiles = list(dict.fromkeys(method.profile for method in run.methods.values() if method.profile))
     for what, there in (("movers", run.has("/path/movers/position")),
                         ("a mesh that deforms", any("deformation" in mesh.attrs for mesh in run.h5["/scene"].values())),
                         (f"several force profiles ({', '.join(profiles)})", profiles),
+                        (f"forces that are no plain sum ({', '.join(laws)})", laws),
                         ("a closed loop", any(method.has("path/position") for method in run.methods.values()))):
         if there:
             raise ResultError(f"{run.file}: has {what}, whose jumps are not attributed here (remedy: an open loop in which one rigid mesh moves, "
-                              "under one force profile)")
+                              "under one force profile, each method with the sum of its LMDs' forces)")
 
 
 def attribute(file):

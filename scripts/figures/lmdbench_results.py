@@ -295,6 +295,7 @@ class Result:
 
 ROUNDING = 1e-8  # force errors below this share of F_max are rounding, and drawn as 0
 MISSES_ALL = "finds no true LMD"
+NOT_JUDGED = "no true force in contact"  # the scene's doing, no method's failure
 
 
 def misses_all(recall, force_error):

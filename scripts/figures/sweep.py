@@ -14,9 +14,9 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ROUNDING, run_script
+from lmdbench_results import NOT_JUDGED, ROUNDING, run_script
 from intervals import Rate
-from sweep_results import Sweep, crossing, front, lines
+from sweep_results import Sweep, along_period, crossing, front, lines
 from tables import as_is, shown, table, write_text
 
 import matplotlib.pyplot as plt
@@ -70,6 +70,7 @@ def levels(points, value):
 
 
 def draw_panel(axes, points, value, colours, markers):
+    points = [point for point in points if point.trouble != NOT_JUDGED]
     low, high = levels(points, value)
     has_zero = any(not point.trouble and value(point) == 0 for point in points)
     has_failed = any(point.trouble for point in points)
@@ -201,21 +202,22 @@ def budget_table(sweep):
 
 
 def crossings(sweep, cheaper="improved", reference="certified"):
-    """Lines of a table; none where nothing gets cheaper."""
+    """Lines of a table, a row a line of points that only the period tells apart; none where nothing gets cheaper. The reference is
+    its cheapest point."""
     rows = []
     for problem in sweep.problems:
-        exact = next((point for point in sweep.of(problem=problem, series=reference) if not point.trouble), None)
-        points = sweep.of(problem=problem, series=cheaper)
-        if exact is None or not points:
+        exact = min((point for point in sweep.of(problem=problem, series=reference) if not point.trouble), key=cost, default=None)
+        if exact is None:
             continue
-        by_cost = crossing(points, cost(exact), cost)
-        by_median = crossing(points, exact.number("frame_time_median_s"), lambda point: point.number("frame_time_median_s"))
-        if not (math.isfinite(by_cost) or math.isfinite(by_median)):
-            continue
-        beyond = next((point for point in sorted(points, key=lambda point: point.period) if point.period >= by_cost), None)
-        at = f"{shown(error(beyond))} (at {beyond.period})" if beyond else "-"
-        recall = f"{shown(100 * beyond.number('recall'))} (at {beyond.period})" if beyond else "-"
-        rows.append([problem, whole(by_cost), whole(by_median), at, recall])
+        for others, points in along_period(sweep.of(problem=problem, series=cheaper)):
+            by_cost = crossing(points, cost(exact), cost)
+            by_median = crossing(points, exact.number("frame_time_median_s"), lambda point: point.number("frame_time_median_s"))
+            if not (math.isfinite(by_cost) or math.isfinite(by_median)):
+                continue
+            beyond = next((point for point in sorted(points, key=lambda point: point.period) if point.period >= by_cost), None)
+            at = f"{shown(error(beyond))} (at {beyond.period})" if beyond else "-"
+            recall = f"{shown(100 * beyond.number('recall'))} (at {beyond.period})" if beyond else "-"
+            rows.append([", ".join([problem, *others]), whole(by_cost), whole(by_median), at, recall])
     return rows and table(["problem", "run time: every ... frames", "median frame: every ... frames", "force error there [% of F_max]",
                            "recall there [%]"], rows)
 

@@ -10,7 +10,7 @@ import shlex
 import h5py
 import numpy as np
 
-from lmdbench_results import MISSES_ALL, ResultError, misses_all, open_h5, text, texts_of
+from lmdbench_results import MISSES_ALL, NOT_JUDGED, ResultError, misses_all, open_h5, text, texts_of
 
 
 def is_sweep(file):
@@ -65,7 +65,7 @@ class Point:
         if self.failure:
             return self.failure
         if not math.isfinite(self.number("force_error_rms_n")):
-            return "no true force in contact"
+            return NOT_JUDGED
         return MISSES_ALL if misses_all(self.number("recall"), self.force_error) else ""
 
     @property
@@ -73,13 +73,16 @@ class Point:
         """Frames from a search to the next; 1 for a method that searches in every frame."""
         return self.experiment["driver"]["search_every_frames"] if self.number("candidates") > 0 else 1
 
-    def text(self):
+    def words(self, but=()):
+        """A text for each axis, without those whose place ends in one of `but`."""
         shown = {place.rsplit("/", 1)[-1]: value for place, value in self.axes.items()}
         if shown.get("search_every_frames") == shown.get("search_latency_frames"):
             shown.pop("search_latency_frames", None)
         names = {"search_every_frames": "a search every {} frames"}
-        parts = [names.get(name, name.replace("_", " ") + " {}").format(value) for name, value in shown.items()]
-        return self.series + (", " + ", ".join(parts) if parts else "")
+        return [names.get(name, name.replace("_", " ") + " {}").format(value) for name, value in shown.items() if name not in but]
+
+    def text(self):
+        return ", ".join([self.series, *self.words()])
 
 
 class Sweep:
@@ -195,6 +198,15 @@ def front(points, cost, error):
             kept.append(point)
             best = error(point)
     return kept
+
+
+def along_period(points):
+    """[(what tells a group from the others, in words; its points)] of groups in which the period of search alone differs."""
+    groups = {}
+    for point in points:
+        groups.setdefault(tuple(point.words(but=("search_every_frames",))), []).append(point)
+    shared = set.intersection(*map(set, groups)) if groups else set()
+    return [([word for word in words if word not in shared], group) for words, group in groups.items()]
 
 
 def crossing(points, reference, value):

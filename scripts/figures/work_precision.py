@@ -16,7 +16,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import MISSES_ALL, ROUNDING, ResultError, misses_all, no_truth, run_script, truth_of
+from lmdbench_results import MISSES_ALL, NOT_JUDGED, ROUNDING, ResultError, misses_all, no_truth, run_script, truth_of
 from variants import open_results
 
 import matplotlib.pyplot as plt
@@ -54,7 +54,7 @@ class Point:
         if not np.all(np.isfinite(forces)):
             self.failure = "force is not finite"
         elif not np.isfinite(self.force_error):
-            self.failure = "no true force in contact"
+            self.failure = NOT_JUDGED
         elif misses_all(method.number("recall"), self.force_error):
             self.failure = MISSES_ALL
 
@@ -113,6 +113,7 @@ def spread(index, count, lane_decades):
 
 
 def draw_panel(axes, points, quantity, lenient, most, label, markers, colours, lines):
+    points = [point for point in points if point.failure != NOT_JUDGED]
     errors = [getattr(point, name) for point in points for name in (quantity, lenient) if name]
     zero, failed, lane_decades = error_axis(axes, errors, any(point.failure for point in points), most)
     in_lane = [point for point in points if point.failure or getattr(point, quantity) == 0]

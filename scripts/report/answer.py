@@ -22,11 +22,19 @@ class Row:
     def __init__(self, method, clock=None):
         self.late = method.number("frames_late") if clock is None else float(np.sum(clock.read("frame_source") == 1))
         self.label = method.label
+        self.profile = method.profile
         self.force_law = method.force_law if method.aggregation == "sum" else f"{method.force_law}, {method.aggregation}"
         self.number = method.number
         self.force_error = method.number("force_error_rms_n") / method.constant("maximum_force_n")
         self.frames_probed = method.read("truth/frame").size if method.has("truth/frame") else 0
         self.largest_force_error = method.number("force_error_maximum_n") / method.constant("maximum_force_n")
+
+
+def lead(rows):
+    """A sentence for each force profile: under different ones the same error is of another force."""
+    profiles = list(dict.fromkeys(row.profile for row in rows))
+    said = [(profile, sentence([row for row in rows if row.profile == profile])) for profile in profiles]
+    return " ".join(f"Under {profile}: {text[0].lower()}{text[1:]}" if profile else text for profile, text in said)
 
 
 def sentence(rows):
@@ -43,10 +51,11 @@ def sentence(rows):
     best = min(punctual, key=lambda row: (row.force_error if row.force_error >= ROUNDING else 0.0, row.number("frames_wrong") > 0,
                                           row.number("frame_time_median_s")))
     late = int(best.late)
+    laws = len({row.force_law for row in probed}) > 1
     return (f"Within one haptic frame (1 ms), {best.label} leaves the least force error: {percent(best.force_error)} % of "
             f"F_max (root mean square), in {time(best.number('frame_time_median_s'))} in the median frame and "
             f"{time(best.number('frame_time_p99_s'))} in 99 % of them; "
-            f"{late or 'none'} of its frames {'is' if late < 2 else 'are'} late.")
+            f"{late or 'none'} of its frames {'is' if late < 2 else 'are'} late." + (" Each error is under the method's own force law." if laws else ""))
 
 
 def time(value):
@@ -120,4 +129,4 @@ def answer(result):
     def table(columns):
         return {"headings": ["frames without a tick" if on_clock and cell is late else name for name, cell in columns],
                 "rows": [[cell(row) for _, cell in columns] for row in rows]}
-    return {"sentence": ON_THE_CLOCK if on_clock else sentence(rows), "first": table(FIRST_COLUMNS), "whole": table(COLUMNS)}
+    return {"sentence": ON_THE_CLOCK if on_clock else lead(rows), "first": table(FIRST_COLUMNS), "whole": table(COLUMNS)}

@@ -12,7 +12,7 @@ import figure_style as style
 import sweep as sweep_figure
 import work_precision
 from clock_results import age_table, clocks, draw_timing, excess_table, lateness_table, role_table
-from lmdbench_results import truth_of
+from lmdbench_results import NOT_JUDGED, truth_of
 from studies import html_of, slug, unique
 
 
@@ -105,7 +105,7 @@ def work_precision_text(results):
     several += " under one force profile" if any(point.method.profile for point in points) else ""
     lanes = ["The shaded lane on the left holds errors of exactly zero."] * any(
         0.0 in (point.force_error, point.missed, point.missed_adjacent) for point in points)
-    lanes += ["The shaded lane on the right holds methods that fail."] * any(point.failure for point in points)
+    lanes += ["The shaded lane on the right holds methods that fail."] * any(point.failure not in ("", NOT_JUDGED) for point in points)
     return " ".join([
         f"Each filled mark is one method{several}: further right its error is larger, further up its run time in a frame in contact is longer; lower "
         "left is better. Open marks: the share missed if LMDs between neighbouring features count as found.", *lanes])

@@ -71,6 +71,13 @@ class Clock(SharedScratch):
             turns = sum(clock.read(f"{loop}/asked").size for loop in ("floor_before", "floor_after"))
             self.assertAlmostEqual(clock.skipped_per_million("floor")[0], 1e6 * idle / (idle + turns))
 
+    def test_none_skipped_of_a_thousand_is_not_none_of_a_million(self):
+        clock = clocks(Result(self.out))[0]
+        clock.read = lambda name: np.zeros(1000)
+        rate, low, high = clock.skipped_per_million("servo")
+        self.assertEqual((rate, low), (0.0, 0.0))
+        self.assertAlmostEqual(high, 1e6 * -np.log(0.025) / 1000, delta=1.0)
+
     def test_the_summary_names_lateness_and_loads(self):
         for words in ("force over empty, p99", "% of a core", "servo", "empty"):
             self.assertIn(words, self.done.stdout)

@@ -59,6 +59,30 @@ class Examples(Scratch):
             self.assertEqual(outcome.returncode, 0, outcome.stderr)
             self.assertIn(expected, outcome.stdout, name)
 
+    def test_what_is_not_there_is_said_and_none_is_not_a_number(self):
+        run = self.path("run.h5")
+        write_result(run)
+        add_lmds(run)
+        with h5py.File(run, "a") as h5:
+            h5["scene/in_contact"][...] = 0
+            h5["methods/original/minimum_distance"][...] = np.nan
+            h5["methods/original/lmds/frame_offset"][...] = 0
+        said = {"forces.py": "original: no force in contact", "times.py": "improved: no frame in contact has a time",
+                "lmds_of_a_frame.py": "original: no LMD in any frame\n", "worst_frames.py": "original: no probed frame in contact"}
+        for name, expected in said.items():
+            outcome = call(sys.executable, EXAMPLES / name, run)
+            self.assertEqual((outcome.returncode, outcome.stderr), (0, ""), name)
+            self.assertIn(expected, outcome.stdout, name)
+        with h5py.File(run, "a") as h5:
+            h5["scene/in_contact"][...] = 1
+            h5["methods/improved/force"][3] = h5["methods/improved/local_update_time"][2, 5] = np.nan
+            del h5["methods/original/truth"]
+        for name in ("forces.py", "times.py"):
+            self.assertNotIn("nan", call(sys.executable, EXAMPLES / name, run).stdout, name)
+        outcome = call(sys.executable, EXAMPLES / "worst_frames.py", run)
+        self.assertEqual(outcome.returncode, 1)
+        self.assertIn("original: no frame was probed (remedy", outcome.stderr)
+
     def test_readme_names_every_recipe_and_each_is_short(self):
         readme = text_of(EXAMPLES, "README.md")
         recipes = sorted(file.name for file in EXAMPLES.glob("*.py"))

@@ -338,6 +338,15 @@ class FigureTest(ScriptsTest):
         self.assertIn("0", labels)
         self.assertIn("failed: improved in hard, force is not finite", [text.get_text() for text in figure.texts])
 
+    def test_work_precision_takes_nobody_for_failed_where_there_is_no_true_force(self):
+        def unjudged(h5):
+            h5["/methods/improved/summary/force_error_rms_n"][...] = np.nan
+
+        figure = work_precision.draw([Result(self.edited("unjudged.h5", unjudged, methods=("original", "improved")))])
+        self.assertNotIn("failed", [label.get_text() for label in figure.axes[0].get_xticklabels()])
+        self.assertIn("not drawn: improved in hard, no true force in contact", [text.get_text() for text in figure.texts])
+        self.assertEqual({line.get_marker() for line in figure.axes[0].lines} & {"x"}, set())
+
     def test_work_precision_has_no_mark_for_the_recall_of_a_method_without_a_set(self):
         def unset(h5):
             for name in ("recall", "recall_adjacent"):

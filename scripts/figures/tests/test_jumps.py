@@ -80,6 +80,7 @@ class Results(cases.Scratch):
     def test_other_scenes_are_refused(self):
         changes = {"movers": lambda h5: h5.create_group("path/movers/position"), "deforms": lambda h5: h5["scene/moving"].attrs.create("deformation", "bend"),
                    "closed loop": lambda h5: h5.create_group("methods/original/path/position"),
+                   "no plain sum .shared.": lambda h5: h5["methods/original"].attrs.create("aggregation", "shared"),
                    "force profiles .stiff.": lambda h5: h5["methods/original"].attrs.create("profile", "stiff")}
         for number, (words, change) in enumerate(changes.items()):
             file = write_result(self.path(f"other{number}.h5"), frames=100)

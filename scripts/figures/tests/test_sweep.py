@@ -107,6 +107,17 @@ class SweepFile(SweepScratch):
         self.assertAlmostEqual(sweep_results.crossing(points, 0.03, lambda p: p.number("processor_share")), 1 / 0.03, places=6)
         self.assertTrue(math.isnan(sweep_results.crossing(points, 1e-9, lambda p: p.number("processor_share"))))
 
+    def test_crossings_are_with_the_cheapest_reference_and_join_no_points_of_other_axes(self):
+        def wider(entry):
+            return {**entry, "axes": json.dumps({**json.loads(entry["axes"]), "/methods/0/subdivision": 2}), "processor_share": 10 * entry["processor_share"]}
+
+        along = [entry for entry in ROWS if entry["series"] == "improved"]
+        slower = {**row("certified", cost=0.5, error=0.0, recall=1.0), "axes": json.dumps({"/methods/0/coherent": False})}
+        for order in (1, -1):
+            rows = sweep.crossings(self.sweep([slower, *ROWS[5:6], *along, *map(wider, along)][::order]))
+            self.assertEqual(sorted(tuple(line.split(" | ")[:3]) for line in rows if "hard" in line),
+                             [("| hard", "33", "33"), ("| hard, subdivision 2", "-", "33")])
+
     def test_figure_and_tables_become_files_and_failures_stay_in_them(self):
         write_sweep(self.file, ROWS)
         self.printed(sweep.main, self.file, "--out", self.path("out"))
@@ -171,6 +182,13 @@ class SweepFile(SweepScratch):
         self.assertEqual((alone.place, alone.value(alone.points[0])), (None, ""))
         self.assertIn("labels: search every frames, visibility", [t.get_text() for t in sweep.draw(self.sweep(
             [point(n, n - 1, v) for v in ("off", "orthogonal") for n in (5, 20)])).texts][0])
+
+    def test_what_was_not_judged_has_no_mark_and_did_not_fail(self):
+        figure = sweep.draw(self.sweep([row("certified", error=math.nan), row("improved", 10)]))
+        self.assertIn("not drawn: certified in hard, no true force in contact", [text.get_text() for text in figure.texts])
+        self.assertNotIn("failed", [label.get_text() for axes in figure.axes for label in axes.get_yticklabels()])
+        self.assertEqual([line for line in figure.axes[0].lines if line.get_marker() == "x"], [])
+        sweep.plt.close(figure)
 
     def test_a_failure_has_its_reason_in_the_figure(self):
         figure = sweep.draw(self.sweep(ROWS))

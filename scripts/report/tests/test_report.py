@@ -21,7 +21,7 @@ import page_figures  # noqa: E402
 import report  # noqa: E402
 import scene_data  # noqa: E402
 import studies  # noqa: E402
-from answer import answer, percent, sentence, time  # noqa: E402
+from answer import answer, lead, percent, sentence, time  # noqa: E402
 from lmdbench_results import Result, ResultError  # noqa: E402
 from page_data import held, moving_recall, time_panels  # noqa: E402
 from synthetic import write_result  # noqa: E402
@@ -29,8 +29,8 @@ from test_sweep import ROWS, write_sweep  # noqa: E402
 
 
 class FakeRow:
-    def __init__(self, label, error, median, p99, late=0, wrong=0):
-        self.label, self.force_error = label, error
+    def __init__(self, label, error, median, p99, late=0, wrong=0, profile="", force_law="linear"):
+        self.label, self.force_error, self.profile, self.force_law = label, error, profile, force_law
         self.late = late
         self.numbers = {"frame_time_median_s": median, "frame_time_p99_s": p99, "frames_wrong": wrong, "frames_in_contact": 1000}
 
@@ -46,6 +46,14 @@ class Answer(Scratch):
     def test_names_the_least_error_within_the_budget(self):
         rows = [FakeRow("cheap", 0.5, 1e-6, 2e-6), FakeRow("good", 0.1, 1e-5, 9e-4), FakeRow("exact", 0.0, 1e-3, 5e-3)]
         self.assertIn("good leaves the least force error: 10 %", sentence(rows))
+
+    def test_each_force_profile_has_a_sentence_of_its_own(self):
+        hard = [FakeRow("a-hard", 0.1, 1e-5, 1e-4, profile="hard"), FakeRow("b-hard", 0.2, 1e-5, 1e-4, profile="hard", force_law="quadratic")]
+        soft = [FakeRow("a-soft", float("nan"), 1e-5, 1e-4, profile="soft")]
+        told = lead([*hard, *soft])
+        self.assertTrue(told.startswith("Under hard: within one haptic frame (1 ms), a-hard leaves"), told)
+        self.assertIn("under the method's own force law. Under soft: no frame in contact was compared", told)
+        self.assertNotIn("own force law", sentence(hard[:1]))
 
     def test_prefers_the_faster_of_two_equals(self):
         rows = [FakeRow("slow", 0.0, 1e-4, 2e-4), FakeRow("quick", 1e-16, 1e-5, 2e-4)]
