@@ -3,11 +3,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # All claims of the project at one commit, part by part; a new call continues, on another day or
 # machine too. A part's commit is the last one that changed what the part may read: no page and no
-# result, so that what was measured can be committed; for searches, studies, fuzzing and tables no
-# test, so that a better test leaves them valid; for searches in generated scenes what they include,
-# without rooms above the methods. Leaves results/release/COMMIT/PART.txt (the output, not
-# committed) and PART.verdict, and page.md in the newest of these folders, with the cause of each
-# part that failed (results/release/causes.txt). Exit code 1 if a part failed or is missing.
+# result, so that what was measured can be committed; for searches, studies, fuzzing, planted
+# defects and tables no test, so that a better test leaves them valid; for searches in generated
+# scenes what they include, without rooms above the methods. Leaves
+# results/release/COMMIT/PART.txt (the output, not committed) and PART.verdict, and page.md in the
+# newest of these folders, with the cause of each part that failed (results/release/causes.txt).
+# Exit code 1 if a part failed or is missing.
 #   scripts/release_check.sh            every part: two nights on two cores
 #   scripts/release_check.sh PART...    only these; those that are done are done again
 #   scripts/release_check.sh --list     the parts
@@ -80,7 +81,7 @@ commit_of() {
       ':!src/lmdbench/base/child_process.*')
     ;;
   fuzz-*) read=("${BUILD[@]}" src experiments/schema "${FUZZED[@]}" "${COMMANDS[@]/#/:!}" "${TESTS[@]}") ;;
-  mutants-*) read=("${BUILD[@]}" src experiments meshes paths tests scripts/{mutants.sh,mutants.txt,lib.sh} ':!*.py') ;;
+  mutants-*) read=("${BUILD[@]}" src experiments meshes paths tests scripts/{mutants,lib}.sh ':!*.py' "${TESTS[@]}") ;;
   reference) read+=("${TESTS[@]}") ;;
   esac
   git log -1 --format=%h -- "${read[@]}" ':!results/re*' ':!*.md' # not what runs left, as baselines are read
