@@ -22,7 +22,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 cd "$ROOT" || exit 1
 
 mapfile -t READERS < <(scripts/fuzz.sh --list | grep -vx lmd) # `lmd`, which all methods need, has a third of the time
-PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..6} completeness hostile parts solids
+PARTS=(setup lint reproduce test develop heavy asan-ubsan tsan smallest packages cluster mutants-{1..24} completeness hostile parts solids
   shapes metamorphic rest generated "${READERS[@]/#/fuzz-}" fuzz-lmd regression reference)
 # Rooms and files that make no set: commands, drivers, numbers, files of results, interfaces, what
 # is told of meshes; and what reads meshes and paths, which searches in generated scenes make, or
@@ -106,7 +106,7 @@ part() {
   smallest) build_preset release >&2 && python3 scripts/smallest_build.py ;;
   packages) scripts/package.sh --check ;;
   cluster) scripts/cluster_test.sh ;;
-  mutants-*) scripts/mutants.sh --share "${1#*-}/6" --keep ;;
+  mutants-*) scripts/mutants.sh --share "${1#*-}/24" --keep ;;
   completeness) all_meshes && study completeness --poses 1000 ;;
   hostile) study hostile --poses "$(of_each 3)" --frames "$(of_each 3)" ;; # poses twice: none, laid
   parts) study parts --poses "$(of_each 236)" ;;
