@@ -7,6 +7,8 @@ import numpy as np
 
 with h5py.File(sys.argv[1]) as result:
     for label, method in result["/methods"].items():
+        if "lmds" not in method or "minimum_distance" not in method:
+            sys.exit(f"{label}: holds no LMD lists (remedy: run with --set /record/lmds=true)")
         near = np.nan_to_num(method["minimum_distance"][:], nan=np.inf)  # without an LMD there is no distance
         frame = int(np.argmin(near))
         begin, end = method["lmds/frame_offset"][frame:frame + 2]

@@ -175,7 +175,8 @@ def rows(hard, soft, verdicts):
     """[Claim] of what two runs show. @param verdicts what read_verdicts() read"""
     for result in (hard, soft):
         if why := claim_runs.why_not(result):
-            raise ResultError(f"{result.file}: {why}, so no claim can be judged (remedy: an open loop of the driver lockstep with frames in contact)")
+            raise ResultError(f"{result.file}: {why}, so no claim can be judged (remedy: an open loop of the driver lockstep with frames in contact, methods "
+                              "under their own names)")
     claims = []
     missing = {"verdict": NOT_MEASURED, "reason": "no ledger of verdicts (remedy: scripts/claims.sh)"}
     for name, rule in CLAIMS.items():

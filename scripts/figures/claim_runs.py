@@ -42,7 +42,11 @@ def said(value, digits=2, unit=""):
 
 
 def why_not(result):
-    """What keeps a result from being judged, if anything: claims compare methods that see the same poses, search at the same frames and touch something."""
+    """What keeps a result from being judged, if anything: claims compare the paper's methods, which see the same poses, search at the same frames and
+    touch something."""
+    for name in ("original", "improved"):
+        if name in result.methods and result.methods[name].name != name:
+            return f"gives the name {name} to the method {result.methods[name].name}"
     if result.has("/realtime"):
         return "is of the driver realtime, in which each method searches when it can"
     if any(method.has("loop") for method in result.methods.values()):

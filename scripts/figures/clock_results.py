@@ -107,7 +107,8 @@ def draw_timing(named):
         else:
             right.text(0.5, 0.5, "searched in the tick: age 0", ha="center", va="center", transform=right.transAxes)
             right.set_yticks([])
-        right.set_xlim(left=0.0)
+        right.set_xlim(0.0, max(time.max(initial=0.0), clock.attribute("period_s")))
+        right.locator_params(axis="x", nbins=5)
     rows[0][0].legend(loc="upper right")
     rows[-1][0].set_xlabel("later than the instant of the grid [us]; dotted: a servo period")
     rows[-1][1].set_xlabel("time [s]")

@@ -17,7 +17,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import ResultError, no_truth, reference_force, run_script, true_forces, truth_of
+from lmdbench_results import ResultError, median, no_truth, reference_force, run_script, true_forces, truth_of
 from variants import open_results
 
 import matplotlib.pyplot as plt
@@ -190,7 +190,7 @@ def plot_updates(axes, column):
         axes.plot(column.time, method.median_times("local_update_time") * 1e6, **{**column.look[method.label], "lw": 0.6})
     axes.set_yscale("log")
     # Down to the fastest method's median frame: below are updates of empty sets.
-    medians = [float(np.nanmedian(line.get_ydata())) for line in axes.lines]
+    medians = [median(line.get_ydata()) for line in axes.lines]
     axes.set_ylim(bottom=min(SHORTEST_UPDATE_US, 0.5 * min([value for value in medians if value > 0], default=1.0)))
     axes.yaxis.set_major_locator(LogLocator(numticks=6))
     axes.yaxis.set_minor_locator(NullLocator())

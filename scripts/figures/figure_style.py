@@ -182,21 +182,19 @@ def lanes(axis, span, low, high, lane, has_zero, has_failed):
     return zero, failed, (begin, end)
 
 
-MOST_NOTED = 4  # failures at the foot of a figure
-
-
 def note_failures(figure, failures):
-    """At the foot: whose mark stands in the lane of failures, or nowhere, and why. @param failures {name: reason}"""
-    notes = []
-    for word, told in (("failed", {name: why for name, why in failures.items() if why != NOT_JUDGED}),
-                       ("not drawn", {name: why for name, why in failures.items() if why == NOT_JUDGED})):
-        if len(told) > MOST_NOTED:  # more would cover the plot
-            notes.append(f"{len(told)} {word}: see the table")
-        elif told:
-            notes.append(f"{word}: " + "; ".join(f"{shortened(name, 2 * LONGEST_NAME)}, {literal(reason)}" for name, reason in told.items()))
-    if notes:
-        note = ". ".join(notes)
-        figure.text(0.012, 0.004, note, fontsize=5.5, color="#444444", wrap=True, va="bottom")
+    """At the foot, on the one line that there is room for: whose mark stands in the lane of failures, or nowhere, and why; else how many.
+    @param failures {name: reason}"""
+    kinds = [(word, kind) for word, kind in (("failed", {name: why for name, why in failures.items() if why != NOT_JUDGED}),
+                                             ("not drawn", {name: why for name, why in failures.items() if why == NOT_JUDGED})) if kind]
+    counts = {word: f"{len(told)} {word}: see the table" for word, told in kinds}
+    whole = {word: f"{word}: " + "; ".join(f"{shortened(name, 2 * LONGEST_NAME)}, {literal(reason)}" for name, reason in told.items())
+             for word, told in kinds}
+    note = figure.text(0.012, 0.004, "", fontsize=5.5, color="#444444", va="bottom")
+    for said in (whole, *({**whole, word: counts[word]} for word in counts), counts):
+        note.set_text(". ".join(said.values()))
+        if width_of(figure, note)[1] <= 0.995:
+            return
 
 
 def save(figure, directory, name):

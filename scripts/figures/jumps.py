@@ -111,7 +111,8 @@ def attribute(file):
     """({label: {kind: jumps [N]}}, F_max, seconds) of one result file; a jump is NaN where triangles intersect, which have no direction."""
     run = Result(file)
     refuse_others(run)
-    if REFERENCE not in run.methods:
+    reference = next((label for label, method in run.methods.items() if method.name == REFERENCE), None)  # a label may be another method's name
+    if reference is None:
         raise ResultError(f"{file}: /methods/{REFERENCE}: is missing beside {', '.join(run.methods)} (remedy: add the method to the experiment)")
     scene = tuple(run.scene(name) for name in ("cutoff_m", "saturation_m", "maximum_force_n", "sharpness"))
     time = run.time
@@ -120,7 +121,7 @@ def attribute(file):
     centre = run.read("/scene/torque_reference") if run.has("/scene/torque_reference") else np.zeros(3)
     steps = travel(run.read("/path/position") + turned(centre, orientation), orientation, 0.5 * float(run.h5["/scene/moving"].attrs["diagonal_m"]))
     sets = {label: sets_of(run.methods[label], time.size, scene) for label in sorted(run.methods)}
-    true = sets[REFERENCE]
+    true = sets[reference]
     result = {}
     for label, own in sets.items():
         jumps = collections.defaultdict(list)

@@ -96,7 +96,7 @@ def main(argv):
     points = prepared(points, body) @ rotation(*pose["rotation_xyzw"]).T + pose["translation_m"]
     cutting = [i for i in range(len(lines.frames)) if lines.of(i)]
     if not cutting:
-        raise ResultError(f"{arguments.result}: the meshes intersect in no recorded frame")
+        raise ResultError(f"{arguments.result}: the meshes intersect in no recorded frame (remedy: a run in which they do, such as experiments/bunny-cut.json)")
 
     with plt.rc_context(style.STYLE):
         figure = plt.figure(figsize=(style.TWO_COLUMNS_IN, 3.3))

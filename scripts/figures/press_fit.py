@@ -142,7 +142,7 @@ class Scene:
         if not self.methods or not entries or "files" not in entries[0].get("deformation", {}):
             raise ResultError(f"{result.file}: no closed loop with LMD lists and a mover that deforms by files (remedy: run "
                               "experiments/press-fit.json)")
-        self.time, self.cutoff = result.time, result.scene("cutoff_m")
+        self.file, self.time, self.cutoff = result.file, result.time, result.scene("cutoff_m")
         movers = result.h5["scene/mover_0"].attrs
         poses = result.read("/path/movers/position")
         self.belt, self.movers = poses[:, int(movers["first_mover"])], poses
@@ -158,7 +158,7 @@ class Scene:
         """How far the pin's tip is below the height at which it meets the clip first [mm]; frames from the last one before on."""
         touched = [bool(len(track.contacts(frame, self.clip_body))) for frame in range(len(track.lmds))]
         if not any(touched):
-            raise ResultError(f"{track.label}: the pin never comes near the clip")
+            raise ResultError(f"{self.file}: {track.label}: the pin never comes near the clip (remedy: run all frames of experiments/press-fit.json)")
         first = max(0, touched.index(True) - 1)
         return first, (track.position[first, 2] - track.position[first:, 2]) * MM
 

@@ -114,16 +114,22 @@ def maximum_forces(result):
 
 
 def whose_contact(result):
-    """In a closed loop every device goes its own way, and meets the mesh less often."""
-    return " on the path that the hand means" if result.experiment.get("loop", {}).get("kind") == "closed" else ""
+    """Of what the run's one count is: in a closed loop every device goes its own way, and meets the mesh less often; every profile has its cutoff."""
+    profiles = result.experiment.get("force", {})
+    return (f" under {profiles[0]['name']}" if isinstance(profiles, list) and len(profiles) > 1 else "") + (
+        " on the path that the hand means" if result.experiment.get("loop", {}).get("kind") == "closed" else "")
+
+
+def counted(number, what):
+    return f"{number} {what}{'s' * (number != 1)}"
 
 
 def describe(result):
     truth = next((truth_of(method) for method in result.methods.values()), None)
     lines = [f"{result.name}: {result.experiment.get('title') or 'no title'}"]
-    lines.append(f"{result.time.size} frames, {result.number('frames_in_contact'):.0f} in contact{whose_contact(result)}; "
-                 f"{f'{repetitions - result.warm_up_repetitions} timed repetitions' if (repetitions := result.repetitions()) else 'times were not kept'}; "
-                 + (f"errors against exhaustive truth in {truth.frames.size} frames{true_jumps(result)}"
+    lines.append(f"{counted(result.time.size, 'frame')}, {result.number('frames_in_contact'):.0f} in contact{whose_contact(result)}; "
+                 f"{counted(repetitions - result.warm_up_repetitions, 'timed repetition') if (repetitions := result.repetitions()) else 'times were not kept'}; "
+                 + (f"errors against exhaustive truth in {counted(truth.frames.size, 'frame')}{true_jumps(result)}"
                     if truth else f"{no_truth(result).upper()}: the times stand without an error")
                  + f"; F_max {maximum_forces(result)} N a contact.")
     lines += ["", table([row(method) for method in result.methods.values()] + truth_rows(result)), "", *crosscheck_lines(result)]

@@ -21,7 +21,7 @@ from tables import as_is, shown, table, write_text
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<")
 BUDGETS_MS = (3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)  # run time of a second of haptics
@@ -79,7 +79,9 @@ def draw_panel(axes, points, value, colours, markers):
     axes.set_ylim(bottom, top)
     axes.yaxis.set_minor_locator(FixedLocator([step * 10.0**power for power in range(math.floor(low), math.floor(high) + 1)
                                                for step in range(2, 10) if 10**low <= step * 10.0**power < 10**high]))
+    axes.xaxis.set_major_locator(FixedLocator(style.labelled(*np.log10(axes.get_xlim()))))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda at, _: f"{at:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
     def place(point):
         return failed if point.trouble else max(value(point), zero) if value(point) > 0 else zero
@@ -177,8 +179,10 @@ def draw(sweep):
     keys = [Line2D([], [], color=colours[series], marker=markers[series], ms=4.2, mec="white", mew=0.4, lw=0.8, label=style.shortened(series))
             for series in sweep.series]
     keys.append(Line2D([], [], color=style.PALE_GREY, lw=3, label="Pareto front"))
-    figure.text(0.085, 1 - 0.18 / height, "Error against run time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else "")
+    heading = figure.text(0.085, 1 - 0.18 / height, "Error against run time of a second in contact" + (f"; labels: {', '.join(axis_names(sweep))}" if axis_names(sweep) else "")
                 + (f"; {len(sweep.problems) - MOST_PANELS} more problems in the tables" if len(sweep.problems) > MOST_PANELS else ""), fontsize=7.5, fontweight="bold")
+    while style.width_of(figure, heading)[1] > 0.995 and heading.get_fontsize() > 4.0:  # many axes have many names
+        heading.set_fontsize(heading.get_fontsize() - 0.5)
     style.note_failures(figure, {f"{point.text()} in {point.problem}": point.trouble for point in sweep.points if point.trouble})
     figure.legend(handles=keys, loc="upper left", bbox_to_anchor=(0.075, 1 - 0.23 / height), ncol=6, handlelength=1.8, columnspacing=1.4,
                   borderpad=0.1)
@@ -293,14 +297,15 @@ def markdown(sweep, picture):
     measured = [point for point in sweep.points if not point.failure]
     checked, wrong = (sum(int(point.number(name)) for point in {p.problem: p for p in measured}.values())
                       for name in ("truth_checked_frames", "truth_wrong_frames"))
+    compared = f"{checked} frames of the problems ({wrong or 'none'} differ)" if checked else "no frame"
+    kernels = any(point.axis("kernel") for point in sweep.points)
     text = [
         "# Error against run time", "",
         f"{as_is(sweep.title)}. Made by `{sweep.command}` and "
         f"`scripts/figures/sweep.py {sweep.file}` at commit {sweep.commit()} on {sweep.machine.get('processor', 'one machine')}; "
-        "`certified` with vector instructions, `original` and `improved` scalar.", "",
-        f"Truth in every frame is the set of `certified`, compared with `exhaustive` in {checked} frames of the problems "
-        f"({wrong or 'none'} differ). Forces are compared under each method's own law. Points take turns in random order; a frame counts "
-        f"with the median of its repetitions; reading the clock costs {sweep.clock_overhead_ns:.0f} ns of every time.{load(sweep)}", ""]
+        f"`certified` {'with the instructions that its points name' if kernels else 'with vector instructions'}, `original` and `improved` scalar.", "",
+        f"Truth in every frame is the set of `certified`, compared with `exhaustive` in {compared}. Forces are compared under each method's own law. Points take turns in "
+        f"random order; a frame counts with the median of its repetitions; reading the clock costs {sweep.clock_overhead_ns:.0f} ns of every time.{load(sweep)}", ""]
     if picture:
         text += [f"![Error against run time]({picture})", ""]
     text += ["## Which method at which budget", "",

@@ -32,7 +32,7 @@ class World:
         group = file["methods"][method] if method in file["methods"] else None
         if group is None or "lmds" not in group:
             raise ResultError(f"{file.filename}: no LMD lists of {method} (remedy: --set /record/lmds=true)")
-        self.entries = []
+        self.file, self.entries = file.filename, []
         for name in sorted(fixed, key=lambda name: int(name.split("_")[1])):
             entry = file["scene"][name]
             self.entries.append({"first": int(entry.attrs["first_fixed_body"]), "mesh": text(entry.attrs["mesh"]),
@@ -67,7 +67,8 @@ class World:
             index = body - entry["first"]
             if 0 <= index < len(entry["position"]):
                 return entry, entry["position"][index], entry["orientation"][index]
-        raise ResultError(f"fixed body {body} is no instance")
+        raise ResultError(f"{self.file}: fixed body {body} is in contact and no instance: not drawn here (remedy: a run whose fixed meshes are "
+                          "instances)")
 
 
 class Meshes:
@@ -135,7 +136,7 @@ def main(argv):
         world = World(file, arguments.method)
     touched = sorted(set(world.body))
     if not touched:
-        raise ResultError(f"{arguments.result}: {arguments.method} found no LMD in any frame")
+        raise ResultError(f"{arguments.result}: {arguments.method} found no LMD in any frame (remedy: another --method, or a path that comes nearer)")
     colours = dict(zip(touched, plt.get_cmap("turbo")(np.linspace(0.08, 0.92, len(touched)))))
     frame = world.frame_of_most()
     with plt.rc_context(style.STYLE):

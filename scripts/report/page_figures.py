@@ -68,6 +68,10 @@ def sweep_entry(sweep, folder, taken):
     return {**made, "html": html_of("\n".join(tables))}
 
 
+def probed(results):
+    return [result for result in results if any(truth_of(method) for method in result.methods.values())]
+
+
 def over_time_entry(results, folder, by_paper):
     """The paper's Figure 7, hard beside soft, or the same of any results; as many columns as a page holds."""
     columns = figure7.columns_of(results)
@@ -78,9 +82,9 @@ def over_time_entry(results, folder, by_paper):
     beside = (f" Not in the figure, which has room for {figure7.MOST_COLUMNS}: {'; '.join(left_out)} (the plots to zoom have them; so has a figure of "
               "`scripts/figures/figure7.py` with fewer results)." if left_out else "")
     name, title, beyond = ("figure7", "The paper's Figure 7", " beyond the paper") if by_paper else ("over_time", "Over time", "")
+    truth = f", and{beyond} the true force and the share of true LMDs that each method knows" if probed(results) else ""
     made = entry(figure7.draw_columns(columns[:figure7.MOST_COLUMNS]), folder, name, title,
-                 f"{where}Force, LMD counts, search and update times, and{beyond} the true force and the share "
-                 f"of true LMDs that each method knows.{beside}{' The next section has these plots to zoom, with all methods.' if by_paper else ''}")
+                 f"{where}Force, LMD counts, {'' if truth else 'and '}search and update times{truth}.{beside}{' The next section has these plots to zoom, with all methods.' if by_paper else ''}")
     return {**made, "folded": "" if by_paper else "As a figure to print", "csv_results": [(i, result.name) for i, result in enumerate(results)]}
 
 
@@ -114,11 +118,11 @@ def work_precision_text(results):
 def figures(results, sweeps, folder, by_paper):
     taken = set()
     entries = [sweep_entry(sweep, folder, taken) for sweep in sweeps]
-    probed = [result for result in results if any(truth_of(method) for method in result.methods.values())]
-    if probed:
+    known = probed(results)
+    if known:
         entries.append(entry(
-            work_precision.draw(probed), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
-            work_precision_text(probed), work_precision_csv(probed), work_precision.draw(probed, narrow=True)))
+            work_precision.draw(known), folder, "work_precision", "Error against run time of these runs" if sweeps else "Error against run time",
+            work_precision_text(known), work_precision_csv(known), work_precision.draw(known, narrow=True)))
     entries += [clock_entry(result, folder, taken) for result in results if clocks(result)]
     over_time = over_time_entry(results, folder, by_paper)
     return entries + ([over_time] if over_time else [])

@@ -83,6 +83,23 @@ class Examples(Scratch):
         self.assertEqual(outcome.returncode, 1)
         self.assertIn("original: no frame was probed (remedy", outcome.stderr)
 
+    def test_what_a_run_did_not_keep_is_said_with_the_remedy(self):
+        run = write_result(self.path("run.h5"))
+        with h5py.File(run, "a") as h5:
+            del h5["methods/improved/truth/frame"]
+            h5["methods/improved/truth/frame"] = np.empty(0, dtype=int)
+        for name, words in (("lmds_of_a_frame.py", "record/lmds"), ("polylines.py", "record/polylines"), ("worst_frames.py", "over more frames than a search takes")):
+            outcome = call(sys.executable, EXAMPLES / name, run)
+            self.assertEqual(outcome.returncode, 1)
+            self.assertNotIn("Traceback", outcome.stderr)
+            self.assertRegex(outcome.stderr, f"remedy: run with .*{words}")
+
+    def test_frames_without_a_true_force_are_not_said_to_be_out_of_contact(self):
+        run = write_result(self.path("run.h5"))
+        with h5py.File(run, "a") as h5:
+            h5["reference/contact_without_direction"][...] = 1
+        self.assertIn("improved: no probed frame in contact has a true force", call(sys.executable, EXAMPLES / "worst_frames.py", run).stdout)
+
     def test_readme_names_every_recipe_and_each_is_short(self):
         readme = text_of(EXAMPLES, "README.md")
         recipes = sorted(file.name for file in EXAMPLES.glob("*.py"))

@@ -433,6 +433,11 @@ class SummaryTest(ScriptsTest):
         write_result(closed, settings={"loop": {"kind": "closed"}})
         self.assertIn(whose, self.printed(summary.main, closed))
 
+    def test_of_several_profiles_it_says_which_one_is_counted_and_one_is_no_plural(self):
+        file = write_result(self.path("two.h5"), frames=1, repetitions=2, settings={"force": [{"name": "stiff"}, {"name": "weak"}]})
+        text = self.printed(summary.main, file)
+        self.assertIn("\n1 frame, 0 in contact under stiff; 1 timed repetition; ", text)
+
     def test_missing_errors_are_shouted(self):
         self.assertIn("NO TRUTH PROBE", self.printed(summary.main, self.bare))
 
@@ -544,7 +549,8 @@ class ClaimsTest(ScriptsTest):
 
     def test_runs_whose_methods_see_different_frames_are_refused(self):
         changes = {"closed": lambda h5: h5.create_group("methods/original/loop"), "realtime": lambda h5: h5.create_group("realtime"),
-                   "no frame in contact": lambda h5: h5["summary/frames_in_contact"].write_direct(np.zeros(1))}
+                   "no frame in contact": lambda h5: h5["summary/frames_in_contact"].write_direct(np.zeros(1)),
+                   "the name original to the method nearest": lambda h5: h5["methods/original"].attrs.create("method", "nearest")}
         for words, change in changes.items():
             file = self.edited(f"{words}.h5", change)
             with self.assertRaisesRegex(ResultError, f"{words}.h5: .*{words}.*remedy"):

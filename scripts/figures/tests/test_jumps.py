@@ -5,6 +5,7 @@
 
 import collections
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -76,6 +77,19 @@ class Results(cases.Scratch):
         self.assertIn("| 2, 0.25/s, 0.50; 1 without direction |", text)
         self.assertIn("| none; 1 without direction |", text)
         self.assertNotIn("nan", text)
+
+    def test_the_reference_is_the_method_not_what_a_label_says(self):
+        file = write_result(self.path("renamed.h5"), frames=3, methods=("improved", "certified"))
+        with h5py.File(file, "a") as h5:
+            h5.move("methods/certified", "methods/exact")
+            h5.move("methods/improved", "methods/certified")
+            h5["scene"].attrs.update({"saturation_m": 0.0, "sharpness": 4.0})
+            h5["scene/moving"].attrs["diagonal_m"] = 1.0
+            h5["path/position"], h5["path/orientation"] = np.zeros((3, 3)), np.tile([0.0, 0, 0, 1], (3, 1))
+        found = {"improved": [{}, {"a": pair(5e-4)}, {"a": pair(5e-4)}], "certified": [{}, {}, {}]}
+        with unittest.mock.patch.object(jumps, "sets_of", lambda method, *_: found[method.name]):
+            result, _, _ = jumps.attribute(file)
+        self.assertEqual({label: {kind: len(jump) for kind, jump in kinds.items()} for label, kinds in result.items()}, {"certified": {"false": 1}, "exact": {}})
 
     def test_other_scenes_are_refused(self):
         changes = {"movers": lambda h5: h5.create_group("path/movers/position"), "deforms": lambda h5: h5["scene/moving"].attrs.create("deformation", "bend"),

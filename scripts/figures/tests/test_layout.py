@@ -4,10 +4,13 @@
 another one. Run: python3 -m unittest discover scripts/figures/tests"""
 
 import warnings
+from types import SimpleNamespace
 
 import h5py
+import numpy as np
 
 from cases import SharedScratch
+import clock_results
 import figure7
 import figure_style
 import page_data
@@ -113,6 +116,27 @@ class LayoutTest(SharedScratch):
             self.check(work_precision.draw([result, other]), "error against run time")
             figure_style.note_failures(figure := figure_style.plt.figure(), {name: "is missing"})
             figure.canvas.draw()
+
+    def test_a_method_without_a_time_is_no_warning(self):
+        file = write_result(self.path("lost.h5"), frames=100)
+        with h5py.File(file, "r+") as h5:
+            h5["methods/original/local_update_time"][...] = np.nan
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.check(figure7.draw(Result(file)), "figure 7")
+
+    def test_ages_of_a_short_run_stand_over_its_own_time(self):
+        def clock(age):
+            time = np.linspace(0.0, 0.02, 21)
+            return SimpleNamespace(attribute=lambda name: 1e-3, ages_ms=lambda: (time, np.full(21, age), np.full(21, 2.0 * age)),
+                                   read=lambda name: np.array([1e-5, 1e-4, 1e-3]) if name.endswith("edges") else np.array([0, 9, 9, 1]))
+        figure = clock_results.draw_timing([("improved", clock(1.0)), ("certified", clock(0.0))])
+        figure.canvas.draw()
+        for axes in figure.axes[1::2]:
+            self.assertAlmostEqual(axes.get_xlim()[1], 0.02)
+            ends = [label.get_window_extent() for label in axes.get_xticklabels()]
+            self.assertTrue(all(one.x1 < other.x0 for one, other in zip(ends, ends[1:])))
+        figure_style.plt.close(figure)
 
     def test_one_frame_is_seen(self):
         file = write_result(self.path("one.h5"), frames=1, repetitions=3, truth_stride=0)

@@ -45,6 +45,13 @@ class Polylines(Scratch):
         style.plt.close(figure)
         self.assertEqual(self.printed(polylines.main, *self.result()).count("polylines."), 2)
 
+    def test_frames_without_a_curve_are_refused_with_the_remedy(self):
+        arguments = self.result()
+        with h5py.File(arguments[0], "a") as h5:
+            h5["polylines/frame_offset"][...] = 0
+        with self.assertRaisesRegex(ResultError, "cut.h5: the meshes intersect in no recorded frame .remedy"):
+            polylines.main(arguments)
+
     def test_other_scenes_are_refused(self):
         cube = {"mesh": "cube"}
         for changes in ({"fixed": [cube, cube]}, {"movers": [cube]}, {"fixed": [{**cube, "instances": {}}]}, {"fixed": [{**cube, "deformation": {}}]}):

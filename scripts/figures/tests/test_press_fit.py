@@ -85,3 +85,9 @@ class PressFit(Scratch):
         write(self.path("press-fit.h5"), lmds=False)
         with self.assertRaisesRegex(ResultError, "press-fit.json"):
             press_fit.main([self.path("press-fit.h5"), "--experiments", str(EXPERIMENT.parent)])
+        write(self.path("far.h5"))
+        with h5py.File(self.path("far.h5"), "a") as h5:
+            for method in h5["methods"].values():
+                method["lmds/frame_offset"][...] = 0
+        with self.assertRaisesRegex(ResultError, "far.h5: certified-shared: .*remedy"):
+            press_fit.main([self.path("far.h5"), "--experiments", str(EXPERIMENT.parent)])

@@ -183,6 +183,33 @@ class SweepFile(SweepScratch):
         self.assertIn("labels: search every frames, visibility", [t.get_text() for t in sweep.draw(self.sweep(
             [point(n, n - 1, v) for v in ("off", "orthogonal") for n in (5, 20)])).texts][0])
 
+    def test_what_is_written_round_the_panels_stays_on_one_line_of_the_figure(self):
+        axes = {f"/methods/0/an_option_with_a_long_name_{number}": ["off", "on"] for number in range(5)}
+        rows = [{**row("improved", 10), "axes": json.dumps({place: values[number] for place, values in axes.items()})} for number in (0, 1)]
+        for reason in ("mesh is missing", "no such mesh " * 40):
+            figure = sweep.draw(self.sweep([*rows, row("improved-other", failure=reason), row("improved-next", failure="mesh is missing")]))
+            notes = [text for text in figure.texts if "failed" in text.get_text()]
+            self.assertRegex(notes[0].get_text(), "improved-other.*; improved-next" if len(reason) < 20 else "^2 failed: see the table$")
+            for text in figure.texts:
+                self.assertLessEqual(sweep.style.width_of(figure, text)[1], 1.0, text.get_text())
+                self.assertNotIn("\n", text.get_text())
+            sweep.plt.close(figure)
+
+    def test_run_times_near_each_other_are_plain_numbers(self):
+        figure = sweep.draw(self.sweep([row("certified", cost=0.0038), row("improved", 10, cost=0.0045)]))
+        figure.canvas.draw()
+        ticks = figure.axes[1].get_xticklabels(which="both")
+        self.assertIn("5", [tick.get_text() for tick in ticks])
+        self.assertEqual([tick.get_text() for tick in ticks if "$" in tick.get_text()], [])
+        sweep.plt.close(figure)
+
+    def test_the_words_above_the_tables_are_those_of_the_points(self):
+        unchecked = sweep.markdown(self.sweep([row("certified", truth_checked_frames=0)]), "")
+        self.assertIn("compared with `exhaustive` in no frame. ", unchecked)
+        self.assertIn("`certified` with vector instructions", unchecked)
+        kernels = [{**row("certified"), "axes": json.dumps({"/methods/0/kernel": name})} for name in ("scalar", "avx2")]
+        self.assertIn("`certified` with the instructions that its points name", sweep.markdown(self.sweep(kernels), ""))
+
     def test_what_was_not_judged_has_no_mark_and_did_not_fail(self):
         figure = sweep.draw(self.sweep([row("certified", error=math.nan), row("improved", 10)]))
         self.assertIn("not drawn: certified in hard, no true force in contact", [text.get_text() for text in figure.texts])

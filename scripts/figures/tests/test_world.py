@@ -56,7 +56,7 @@ class WorldFigure(Scratch):
         self.assertEqual(sorted(found.bodies(1)), [1, 1, 5])
         self.assertEqual(list(found.place(5)[1]), [10.0, 1.0, 0.0])
         self.assertEqual(list(found.counters["pairs_touched"]), [0, 2, 1])
-        with self.assertRaises(ResultError):
+        with self.assertRaisesRegex(ResultError, "world.h5: fixed body 6 .*remedy"):
             found.place(6)
 
     def test_in_a_closed_loop_the_device_of_the_method_moves(self):
@@ -84,4 +84,12 @@ class WorldFigure(Scratch):
             world.main([self.file])
         write(self.file, lmds=False)
         with self.assertRaisesRegex(ResultError, "record/lmds"):
+            world.main([self.file])
+        write(self.file)
+        with h5py.File(self.file, "a") as file:
+            lmds = file["methods/certified/lmds"]
+            lmds["frame_offset"][...] = 0
+            del lmds["fixed_body"]
+            lmds["fixed_body"] = np.empty(0, dtype=int)
+        with self.assertRaisesRegex(ResultError, "no LMD in any frame .remedy"):
             world.main([self.file])

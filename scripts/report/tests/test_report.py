@@ -420,6 +420,13 @@ class Page(Scratch):
             self.assertEqual(entry["csv_results"], [(0, "wide"), (1, "other")])
         self.assertNotIn("Not in the figure", page_figures.over_time_entry(results[1:], self.folder, False)["text"])
 
+    def test_the_figure_over_time_tells_of_truth_only_where_there_is_one(self):
+        self.enterContext(unittest.mock.patch.object(page_figures, "saved", lambda *_: ""))
+        for stride in (0, 50):
+            result = Result(write_result(self.path(f"probed{stride}.h5"), frames=100, truth_stride=stride))
+            text = page_figures.over_time_entry([result], self.folder, False)["text"]
+            self.assertEqual("the true force" in text, stride > 0, text)
+
     def test_variants_of_an_experiment_are_told_apart_and_share_ranges(self):
         other = write_result(self.path("other.h5"), maximum_force=6.0, settings={"device": "ideal"})
         with h5py.File(self.file, "a") as h5:
