@@ -17,7 +17,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 import figure_style as style
-from lmdbench_results import Result, run_script
+from lmdbench_results import Result, quantile, run_script
 from program import PROGRAM, printed, settings_words, timed
 from tables import shown, table_text, write_text
 
@@ -55,7 +55,7 @@ COLUMNS = {
     "dropouts, 1/s": lambda method: a_second(method, "dropouts"),
     "clipped, %": lambda method: 100 * method.number("force_clipped_share"),
     "K_eff, 99 %, N/m": lambda method: method.number("effective_stiffness_p99_n_per_m"),
-    "smallest distance, mm": lambda method: 1e3 * np.nanmin(method.read("minimum_distance")),
+    "smallest distance, mm": lambda method: 1e3 * quantile(method.read("minimum_distance"), 0.0),
     "energy created, mJ": lambda method: 1e3 * method.number("energy_created_j"),
 }
 
@@ -102,7 +102,7 @@ def errors(result, profile, label):
     """Error of a method's force against the exact set's under the same law, over the frames in contact: (root mean square, 99 %) [N]."""
     method, exact = (result.method(f"{name}-{profile}") for name in (label, f"exact-{label}"))
     length = np.linalg.norm(method.read("force") - exact.read("force"), axis=1)[method.in_contact()]
-    return float(np.sqrt(np.mean(length**2))), float(np.percentile(length, 99))
+    return float(np.sqrt(np.mean(length**2))) if length.size else np.nan, quantile(length, 0.99)
 
 
 def prediction_table(runs):

@@ -419,12 +419,12 @@ def run_script(main):
     except DATA_ERRORS as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
         files, holder, remedy = ((OPENED, "a result holds", "make the file again with lmdbench run") if OPENED else
-                                 (sys.argv[1:], "is read here", "name files of the kind that --help tells"))
+                                 ([argument for argument in sys.argv[1:] if os.path.isfile(argument)] or sys.argv[1:], "is read here", "name files of the kind that --help tells"))
         print(f"{', '.join(files)}: not what {holder}: {type(error).__name__}: {in_short(error)} in {os.path.basename(place.filename)}, "
               f"line {place.lineno} (remedy: {remedy})", file=sys.stderr)
         return EXIT_INPUT_DATA
     except OSError as error:  # a full disk, no write permission, a reader that has gone
         if isinstance(error, BrokenPipeError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else the interpreter complains when it ends
-        print(error, file=sys.stderr)
+        print(f"{error} (remedy: check the disk, its permissions and that a folder to write to is no file)", file=sys.stderr)
         return EXIT_ENVIRONMENT

@@ -7,6 +7,8 @@ import json
 import pathlib
 import re
 import sys
+import unittest.mock
+import warnings
 
 import h5py
 import numpy as np
@@ -19,6 +21,7 @@ import claims
 import claims_section
 import figure7
 import figure_style
+import hard_soft
 import lmdbench_results
 import summary
 import work_precision
@@ -337,6 +340,27 @@ class FigureTest(ScriptsTest):
         self.assertIn("failed", labels)
         self.assertIn("0", labels)
         self.assertIn("failed: improved in hard, force is not finite", [text.get_text() for text in figure.texts])
+
+    def test_what_is_read_is_named_and_no_option_is(self):
+        with open(self.path("list.json"), "w", encoding="utf-8") as file:
+            file.write("[]")
+        said = self.refused(lmdbench_results.EXIT_INPUT_DATA, "continuous_force.py", self.path("list.json"), "--out", self.path("made"))
+        self.assertTrue(said.startswith(f"{self.path('list.json')}: not what is read here"), said)
+        said = self.refused(lmdbench_results.EXIT_ENVIRONMENT, "figure7.py", self.hard, "--out", self.path("list.json"))
+        self.assertRegex(said, "list.json.*remedy")
+
+    def test_a_run_without_contact_has_no_smallest_distance_and_no_error(self):
+        def apart(h5):
+            h5["scene/in_contact"][...] = 0
+            h5["methods/original/minimum_distance"] = np.full(2000, np.nan)
+
+        result = Result(self.edited("apart.h5", lambda h5: (h5.move("methods/improved", "methods/exact-original"), apart(h5))))
+        method = result.methods["original"]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertTrue(np.isnan(hard_soft.COLUMNS["smallest distance, mm"](method)))
+            with unittest.mock.patch.object(result, "method", lambda name: result.methods[name.removesuffix("-")]):
+                self.assertTrue(np.all(np.isnan(hard_soft.errors(result, "", "original"))))
 
     def test_work_precision_takes_nobody_for_failed_where_there_is_no_true_force(self):
         def unjudged(h5):
