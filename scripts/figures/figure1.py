@@ -19,6 +19,7 @@ import figure_style as style
 from lmdbench_results import ResultError, UsageError, in_short, run_script
 from mesh_drawing import FIXED, MOVING, draw_triangles, prepared, read_off, rotation, view_towards
 from program import PROGRAM, answer
+from tables import counted
 
 import matplotlib.pyplot as plt
 from matplotlib.collections import LineCollection
@@ -158,7 +159,7 @@ def main(argv):
     pose, lmds = poses[shown], sets[shown]
     shapes = [(moving @ rotation(*pose[4:]).T + pose[1:4], meshes["moving"][1]), meshes["fixed"]]
     name = style.shortened(experiment.get("name", Path(arguments.experiment).stem))
-    title = f"{len(lmds)} LMD{'s' * (len(lmds) != 1)} of {arguments.method} within {1e3 * cutoff:.3g} mm, {name} at {pose[0]:g} s"
+    title = f"{counted(len(lmds), 'LMD')} of {arguments.method} within {1e3 * cutoff:.3g} mm, {name} at {pose[0]:g} s"
     return style.leave(draw(shapes, lmds, title), arguments.out, "figure1")
 
 

@@ -12,6 +12,7 @@ import figure_style as style
 from anatomy import main_of
 from lmdbench_results import run_script
 from mesh_drawing import PATCHES, PLAIN, draw_triangles, frame, view_onto
+from tables import counted
 
 import matplotlib.pyplot as plt
 
@@ -43,7 +44,7 @@ def draw(anatomy, _):
         axes.plot(point[0], point[1], "o", ms=4, color=style.VERMILLION, mec="white", mew=0.5, zorder=5)
         frame(axes, seen.min(axis=0), seen.max(axis=0), margin=0.2)
         count = len(entry["triangles"])
-        axes.set_title(f"{WORDS[entry['kind'], entry['reading']]}\n{count} triangle{'s' * (count != 1)}", fontsize=7.5)
+        axes.set_title(f"{WORDS[entry['kind'], entry['reading']]}\n{counted(count, 'triangle')}", fontsize=7.5)
     figure.text(0.02, 0.925, f"Neighbourhoods of local tracking on {mesh.name}", fontsize=8.5, fontweight="bold")
     return figure
 

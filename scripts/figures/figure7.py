@@ -18,6 +18,7 @@ import numpy as np
 
 import figure_style as style
 from lmdbench_results import ResultError, median, no_truth, reference_force, run_script, true_forces, truth_of
+from tables import counted
 from variants import open_results
 
 import matplotlib.pyplot as plt
@@ -106,7 +107,7 @@ def note_beyond(axes):
     beyond = [value for value in drawn_values(axes) if value > axes.get_ylim()[1]] if axes.lines else []
     if not beyond:
         return
-    axes.text(0.995, 0.97, f"{len(beyond)} point{'s' * (len(beyond) != 1)} above, up to {max(beyond):.3g} ms", transform=axes.transAxes, ha="right", va="top", zorder=9,
+    axes.text(0.995, 0.97, f"{counted(len(beyond), 'point')} above, up to {max(beyond):.3g} ms", transform=axes.transAxes, ha="right", va="top", zorder=9,
               bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}, **NOTE)
 
 

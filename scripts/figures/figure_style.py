@@ -185,11 +185,11 @@ def lanes(axis, span, low, high, lane, has_zero, has_failed):
 def note_failures(figure, failures):
     """At the foot, on the one line that there is room for: whose mark stands in the lane of failures, or nowhere, and why; else how many.
     @param failures {name: reason}"""
-    kinds = [(word, kind) for word, kind in (("failed", {name: why for name, why in failures.items() if why != NOT_JUDGED}),
-                                             ("not drawn", {name: why for name, why in failures.items() if why == NOT_JUDGED})) if kind]
-    counts = {word: f"{len(told)} {word}: see the table" for word, told in kinds}
-    whole = {word: f"{word}: " + "; ".join(f"{shortened(name, 2 * LONGEST_NAME)}, {literal(reason)}" for name, reason in told.items())
-             for word, told in kinds}
+    told = {"failed": [], "not drawn": []}
+    for name, reason in failures.items():
+        told["not drawn" if reason == NOT_JUDGED else "failed"].append(f"{shortened(name, 2 * LONGEST_NAME)}, {literal(reason)}")
+    whole = {word: f"{word}: {'; '.join(names)}" for word, names in told.items() if names}
+    counts = {word: f"{len(told[word])} {word}: see the table" for word in whole}
     note = figure.text(0.012, 0.004, "", fontsize=5.5, color="#444444", va="bottom")
     for said in (whole, *({**whole, word: counts[word]} for word in counts), counts):
         note.set_text(". ".join(said.values()))

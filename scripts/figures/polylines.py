@@ -15,6 +15,7 @@ import numpy as np
 import figure_style as style
 from lmdbench_results import ResultError, open_h5, run_script, text
 from mesh_drawing import prepared, read_off, rotation
+from tables import counted
 
 import matplotlib.pyplot as plt
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
@@ -109,7 +110,7 @@ def main(argv):
             left.add_collection3d(Line3DCollection([line[:, [2, 0, 1]] for line in lines.of(i)], colors=[colour],
                                                    linewidths=1.3, zorder=10))
         figure.text(0.02, 0.95, f"{style.shortened(body['mesh'])}, {validity['triangles']} triangles: "
-                    f"curves of {len(chosen)} frame{'s' * (len(chosen) != 1)}", fontsize=8)
+                    f"curves of {counted(len(chosen), 'frame')}", fontsize=8)
         times = path_time[lines.frames]
         top = figure.add_axes([0.64, 0.6, 0.34, 0.32])
         top.plot(times, [1e3 * lines.length(i) for i in range(len(times))], color=style.BLUE)

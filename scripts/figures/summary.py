@@ -12,7 +12,7 @@ import interpreter  # noqa: F401  (chooses one that has what follows)
 import numpy as np
 
 from lmdbench_results import no_truth, run_script, true_forces, truth_of
-from tables import percent, shown
+from tables import counted, percent, shown
 from variants import open_results
 
 NOT_MEASURED = "-"
@@ -118,10 +118,6 @@ def whose_contact(result):
     profiles = result.experiment.get("force", {})
     return (f" under {profiles[0]['name']}" if isinstance(profiles, list) and len(profiles) > 1 else "") + (
         " on the path that the hand means" if result.experiment.get("loop", {}).get("kind") == "closed" else "")
-
-
-def counted(number, what):
-    return f"{number} {what}{'s' * (number != 1)}"
 
 
 def describe(result):

@@ -7,6 +7,10 @@ import math
 import os
 
 
+def counted(number, what):
+    return f"{number} {what}{'s' * (number != 1)}"
+
+
 def shown(value, digits=3, missing="-"):
     return missing if value is None or not math.isfinite(value) else f"{value:.{digits}g}"
 

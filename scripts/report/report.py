@@ -26,7 +26,7 @@ from answer import answer  # noqa: E402
 from claims_section import claims_of, evidence  # noqa: E402
 from lmdbench_results import no_truth, refuse_foreign, run_script, truth_of  # noqa: E402
 from page_data import page_colours, panels_of  # noqa: E402
-from page_figures import figures  # noqa: E402
+from page_figures import figures, probed  # noqa: E402
 from paper_figures import paper_figures  # noqa: E402
 from scene_data import scene  # noqa: E402
 from studies import FIRST, studies as study_sections  # noqa: E402
@@ -188,7 +188,7 @@ def page(results, sweeps, scenes, study_files, by_paper, paper, folder):
     return environment.get_template("page.html.j2").render(
         title=title_of(results, sweeps),
         results=described, movers=any(result.has("/path/movers/position") for result in results),
-        probed=any(truth_of(method) for result in results for method in result.methods.values()), sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
+        probed=bool(probed(results)), sections=sections, provenances=[*described, *map(sweep_provenance, sweeps)],
         figures=entries, printed=printed, by_paper=by_paper, paper=paper, studies=studies, first_studies=FIRST, claims=claims, linked_claims=linked,
         omissions=[PAPERS_OMISSION, *OMISSIONS] if by_paper else OMISSIONS, style=raw(text_of(HERE, "page.css")),
         libraries={"script": raw(in_script("\n".join(library(*item) for item in LIBRARIES))),
